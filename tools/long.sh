@@ -10,6 +10,8 @@
 # snapshots     10 000 random edits of a project of 100 000 lines, and 200 in each folder: snapshots equal a check, and what
 #               they cost (COUNT, FIRST)
 # rename        1 500 random renames in projects and files of all formats: equal C++ but for the name (COUNT, FIRST)
+# debugger      steps of every kind, forward and back, through all conformance programs, 100 programs with peers and
+#               files, and 60 sessions of requests in any order
 # typing        20 files of each folder of samples and vendors' projects typed from the first character to the last in the
 #               language server, and random edits: it says what a cold check says (COUNT, FIRST)
 # changes       1 000 random edits of running programs: what keeps its value, and how the program goes on (COUNT, FIRST)
@@ -91,6 +93,14 @@ rename() {
   mapfile -t files < <(find tests/conformance/language tests/conformance/standard -name '*.st' -o -name '*.xml' | sort)
   PATH=$bin:$PATH tests/lsp/rename.py --seed "$first" --count "$((${COUNT:-1500} / 500))" --verbose "${files[@]}"
   PATH=$bin:$PATH tests/lsp/rename.py --seed "$first" --count 20 --verbose samples/*/ tests/programs/vendor/*/
+}
+
+debugger() {
+  local programs
+  mapfile -t programs < <(find tests/conformance -name '*.st' | sort)
+  tests/dap/steps.py --tests --stops 400 "${programs[@]}"
+  tests/dap/services.py --programs 100 --seed 7
+  tests/dap/fuzz.py --seed 1 --seeds 60 samples/tank
 }
 
 typing() {
@@ -233,7 +243,7 @@ compilers() {
   CXX=clang++ "$bin/rung_test_runner" tests/conformance
 }
 
-all=(differential networks mutants frames snapshots rename typing changes forces monitor page modifiers bodies mutation profiles cams kills tsan
+all=(differential networks mutants frames snapshots rename typing debugger changes forces monitor page modifiers bodies mutation profiles cams kills tsan
      service vscode lateness asan debug tidy conversions conformance packages compilers)
 parts=("$@")
 [ ${#parts[@]} -gt 0 ] || parts=("${all[@]}")

@@ -68,7 +68,20 @@ void DebugCode::armAll() {
   armed_points_.clear();
 }
 
+void DebugCode::armForChanges(std::vector<Watched> watched, const std::vector<uint32_t>& points) {
+  armAll();
+  watched_ = std::move(watched);
+  asks_.assign(code_.insns.size(), 0);
+  for (const uint32_t point : points) asks_[points_[point].insn] = 1;
+  takeValues();
+}
+
+void DebugCode::takeValues() {
+  for (Watched& one : watched_) memcpy(one.value, one.at, one.size);
+}
+
 void DebugCode::disarmAll() {
+  watched_.clear();
   const auto restore = [&](const DebugPoint& point) { code_.insns[point.insn].run = originals_[point.insn]; };
   if (all_armed_)
     for (const DebugPoint& point : points_) restore(point);

@@ -8,6 +8,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <cstring>
 #include <string>
 #include <vector>
 
@@ -69,6 +70,14 @@ class DebugCode {
   // While no code runs, or from the listener.
   void arm(uint32_t point);
   void armAll();
+  // All, but the listener is called only at these points and where one of the variables has another value.
+  struct Watched {
+    const uint8_t* at;
+    uint32_t size;  // at most 8
+    uint8_t value[8];
+  };
+  void armForChanges(std::vector<Watched> watched, const std::vector<uint32_t>& points);
+  void takeValues();  // of the variables as they are now
   void disarmAll();
   bool areAllArmed() const { return all_armed_; }
 
@@ -87,6 +96,12 @@ class DebugCode {
   void forgetInterrupt() { interrupted_.store(false, std::memory_order_relaxed); }
 
   // From instructions.
+  bool isQuiet(const Insn* ip) const {
+    if (watched_.empty() || isInterrupted() || asks_[static_cast<size_t>(ip - code_.insns.data())]) return false;
+    for (const Watched& one : watched_)
+      if (memcmp(one.at, one.value, one.size) != 0) return false;
+    return true;
+  }
   void stopAt(const Insn* ip, const Machine& machine) const {
     listener_->atPoint(point_of_[static_cast<size_t>(ip - code_.insns.data())], machine);
   }
@@ -108,6 +123,8 @@ class DebugCode {
   std::vector<uint32_t> point_of_;      // by instruction
   std::vector<Handler> originals_;      // by instruction
   std::vector<uint32_t> armed_points_;  // unless all are
+  std::vector<Watched> watched_;
+  std::vector<uint8_t> asks_;  // by instruction: while variables are watched
   bool all_armed_ = false;
   std::atomic<bool> interrupted_{false};
 };

@@ -52,10 +52,12 @@ void pass(RUNG_HANDLER_PARAMETERS) { RUNG_NEXT; }
 
 // In the place of the instruction that begins an armed point.
 void stop(RUNG_HANDLER_PARAMETERS) {
-  m->ip = ip;
-  m->fp = fp;
-  m->self = self;
-  m->debug->stopAt(ip, *m);
+  if (!m->debug->isQuiet(ip)) {
+    m->ip = ip;
+    m->fp = fp;
+    m->self = self;
+    m->debug->stopAt(ip, *m);
+  }
   const Handler original = m->debug->original(ip);
   RUNG_TAIL_CALL original(ip, fp, self, m);
 }

@@ -46,8 +46,8 @@ class OutputSink final : public driver::Sink {
 
 Granularity granularityOf(const Json& arguments) {
   const std::string_view wanted = arguments["granularity"].text();
-  if (wanted == "line") return Granularity::Line;
-  return wanted == "instruction" ? Granularity::Network : Granularity::Statement;
+  if (wanted == "statement") return Granularity::Statement;
+  return wanted == "instruction" ? Granularity::Network : Granularity::Line;
 }
 
 Json capabilities() {
@@ -113,6 +113,7 @@ const Adapter::Request Adapter::kRequests[] = {
     {"rung/stepActivation", &Adapter::stepActivation, Request::Stopped},
     {"rung/gotoCycle", &Adapter::gotoCycle, Request::Stopped},
     {"rung/lastWrite", &Adapter::lastWrite, Request::Stopped},
+    {"rung/memoryHash", &Adapter::memoryHash, Request::Stopped},
 };
 
 Adapter::Adapter(Connection& connection, ParseArguments parse) : connection_(connection), parse_(std::move(parse)) {}
@@ -340,6 +341,11 @@ void Adapter::pause(const Json& request, const Json&) {
   runs_ = nullptr;
   pauses_ = false;
   report({Stop::Pause, "", {}, 0});
+}
+
+// Of all variables: for tests.
+void Adapter::memoryHash(const Json& request, const Json&) {
+  connection_.respond(request, {{"hash", std::to_string(debugger().execution().memoryHash())}});
 }
 
 void Adapter::exceptionInfo(const Json& request, const Json&) {

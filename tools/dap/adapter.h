@@ -71,6 +71,7 @@ class Adapter {
   void stepActivation(const Json& request, const Json& arguments);
   void gotoCycle(const Json& request, const Json& arguments);
   void lastWrite(const Json& request, const Json& arguments);
+  void memoryHash(const Json& request, const Json& arguments);
   void exceptionInfo(const Json& request, const Json& arguments);
 
   // ---- values (values.cpp)

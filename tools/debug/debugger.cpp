@@ -108,9 +108,15 @@ void Debugger::bind(Breakpoint& breakpoint, const std::string& file) {
   breakpoint.file = file;
   breakpoint.line = best->line;
   breakpoint.column = best->column;
-  for (size_t i = 0; i < points.size(); ++i)
-    if (points[i].file == file && points[i].line == best->line && points[i].column == best->column)
-      breakpoint.points.push_back(static_cast<uint32_t>(i));
+  // Of a line as a whole, what each POU does first there; a statement has further points where it calls something.
+  uint32_t last_body = RUNG_NONE;
+  for (size_t i = 0; i < points.size(); ++i) {
+    const DebugPoint& point = points[i];
+    if (point.file != file || point.line != best->line) continue;
+    if (wish.column == 0 ? point.body == last_body : point.column != best->column) continue;
+    last_body = point.body;
+    breakpoint.points.push_back(static_cast<uint32_t>(i));
+  }
   breakpoint.is_bound = true;
 }
 
@@ -192,7 +198,7 @@ Execution::Armed Debugger::armed() const {
   Execution::Armed armed;
   armed.all =
       step_.is_active || std::any_of(data_.begin(), data_.end(), [](const Breakpoint& it) { return it.is_bound; });
-  if (armed.all) return armed;
+  if (step_.is_active) return armed;
   const auto add = [&](const std::vector<Breakpoint>& all) {
     for (const Breakpoint& one : all) armed.points.insert(armed.points.end(), one.points.begin(), one.points.end());
   };
@@ -201,14 +207,25 @@ Execution::Armed Debugger::armed() const {
   armed.points.insert(armed.points.end(), run_to_points_.begin(), run_to_points_.end());
   std::sort(armed.points.begin(), armed.points.end());
   armed.points.erase(std::unique(armed.points.begin(), armed.points.end()), armed.points.end());
+  if (!armed.all) return armed;
+  for (const Breakpoint& one : data_) {
+    if (!one.is_bound) continue;
+    const uint8_t* const at = one.watched.address();
+    const uint32_t size = one.watched.type->size;
+    if (at == nullptr || one.watched.pointers != 0 || size > sizeof DebugCode::Watched::value) {
+      armed.watched.clear();  // what it is may change, or it is large
+      return armed;
+    }
+    armed.watched.push_back({at, size, {}});
+  }
   return armed;
 }
 
 // ---- the judge: in the thread of the program
 
-bool Debugger::hits(Breakpoint& breakpoint, const Machine& machine) {
+bool Debugger::hits(Breakpoint& breakpoint, uint32_t point, const Machine& machine) {
   if (!breakpoint.wish.condition.empty()) {
-    const std::vector<DebugFrame> frames = execution_.code().frames(machine, breakpoint.points.front());
+    const std::vector<DebugFrame> frames = execution_.code().frames(machine, point);
     values_.forget();
     const Evaluated value = expressions_.evaluate(breakpoint.wish.condition, frames.empty() ? nullptr : &frames[0]);
     if (!value.error.empty()) {
@@ -246,7 +263,7 @@ void Debugger::log(const Breakpoint& breakpoint, const Machine& machine, uint32_
 
 bool Debugger::hitsBreakpoint(uint32_t point, const Machine& machine) {
   for (Breakpoint* const breakpoint : at_point_[point]) {
-    if (!hits(*breakpoint, machine)) continue;
+    if (!hits(*breakpoint, point, machine)) continue;
     if (!breakpoint->wish.log.empty()) {
       log(*breakpoint, machine, point);
       continue;
@@ -273,6 +290,7 @@ bool Debugger::hasChanged(Breakpoint& breakpoint, std::string* text) {
     *text = breakpoint.wish.name + ": " + (before.empty() ? "changed" : before + " -> " + after);
   }
   breakpoint.last_value = std::move(bytes);
+  execution_.code().takeValues();
   return true;
 }
 
@@ -280,7 +298,7 @@ bool Debugger::stopsAt(const Moment& at, const Machine& machine) {
   for (Breakpoint& breakpoint : data_) {
     std::string text;
     if (!breakpoint.is_bound || !hasChanged(breakpoint, &text)) continue;
-    if (!hits(breakpoint, machine)) continue;
+    if (!hits(breakpoint, at.point, machine)) continue;
     found_.reason = Stop::DataBreakpoint;
     found_.text = text;
     found_.ids.push_back(breakpoint.id);
@@ -376,7 +394,8 @@ Stop Debugger::stopOf(const Outcome& outcome) {
 
 void Debugger::beginStep(StepKind kind, Granularity granularity) {
   const Moment now = execution_.now();
-  step_ = {true, kind, granularity, depth_, pointOf(now), task_, now.unit, execution_.cycle()};
+  const int64_t before = execution_.isInside() ? 0 : 1;  // what runs next is the next unit, and cycle
+  step_ = {true, kind, granularity, depth_, pointOf(now), task_, now.unit - before, execution_.cycle() - before};
 }
 
 // The statement that a moment is at or in.
@@ -433,7 +452,9 @@ bool Debugger::searchBack(const Execution::Armed& armed, Predicate predicate) {
   Recorder<decltype(note)> recorder(note);
   for (int64_t unit = to.point == RUNG_NONE ? to.unit - 1 : to.unit; unit >= 0;) {
     const Moment checkpoint = execution_.checkpointFor(unit);
-    execution_.replay(checkpoint, to, recorder, armed);
+    execution_.goTo(checkpoint);
+    rememberWatched();
+    execution_.replay(to, recorder, armed);
     if (found) break;
     to = checkpoint;
     unit = checkpoint.unit - 1;
@@ -472,14 +493,8 @@ Stop Debugger::reverse() {
   for (Breakpoint& one : functions_)
     for (const uint32_t point : one.points) at_point_[point].push_back(&one);
   Stop stop;
-  Moment before;
-  std::optional<Moment> written;
-  // A write is where the statement before the change is.
-  int64_t unit = -1;
   const bool is_found = searchBack(wanted, [&](const Moment& at, const Machine& machine) {
     bool is_hit = false;
-    if (at.unit < unit || unit < 0) rememberWatched();
-    unit = at.unit;
     for (Breakpoint& breakpoint : data_) {
       std::string text;
       if (!breakpoint.is_bound || !hasChanged(breakpoint, &text)) continue;
@@ -490,7 +505,7 @@ Stop Debugger::reverse() {
     for (Breakpoint* const breakpoint : at_point_[at.point]) {
       if (!breakpoint->wish.log.empty()) continue;
       const uint64_t count = breakpoint->count;
-      const bool hit = hits(*breakpoint, machine);
+      const bool hit = hits(*breakpoint, at.point, machine);
       breakpoint->count = count;
       if (!hit) continue;
       stop = {Stop::Breakpoint, "", {breakpoint->id}, 0};
@@ -519,15 +534,14 @@ Stop Debugger::lastWrite(const std::string& path) {
   for (int64_t unit = to.point == RUNG_NONE ? to.unit - 1 : to.unit; unit >= 0 && !writer;) {
     const Moment checkpoint = execution_.checkpointFor(unit);
     std::optional<Moment> last;
-    bool is_first = true;
+    execution_.goTo(checkpoint);
+    watch.last_value = bytesOf(watch.watched);
     auto note = [&](const Moment& at, const Machine&) {
-      if (is_first) watch.last_value = bytesOf(watch.watched);
-      is_first = false;
       if (last && hasChanged(watch, &text)) writer = last;
       last = at;
     };
     Recorder<decltype(note)> recorder(note);
-    execution_.replay(checkpoint, to, recorder, all);
+    execution_.replay(to, recorder, all);
     if (last && hasChanged(watch, &text)) writer = last;  // by the last statement in front of `to`
     to = checkpoint;
     unit = checkpoint.unit - 1;
@@ -539,6 +553,7 @@ Stop Debugger::lastWrite(const std::string& path) {
 }
 
 bool Debugger::lookBeforeCycle(const std::function<void()>& look) {
+  if (execution_.isRunning()) return false;  // in a condition
   const Moment origin = execution_.now();
   if (!execution_.goToCycle(execution_.cycle())) return false;
   look();

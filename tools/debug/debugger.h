@@ -122,7 +122,7 @@ class Debugger : Judge {
   void bindData(Breakpoint& breakpoint);
   void rememberWatched();
   bool hitsBreakpoint(uint32_t point, const Machine& machine);
-  bool hits(Breakpoint& breakpoint, const Machine& machine);
+  bool hits(Breakpoint& breakpoint, uint32_t point, const Machine& machine);
   bool hasChanged(Breakpoint& breakpoint, std::string* text);
   void log(const Breakpoint& breakpoint, const Machine& machine, uint32_t point);
   bool completesStep(uint32_t point, const Machine& machine) const;

@@ -38,10 +38,14 @@ Execution::Execution(driver::ProgramVersion& version, ExecutionOptions options)
   hooks.assertion = [this](const rung_assertion& assertion, bool passed, const char* expected, const char* actual) {
     onAssertion(assertion, passed, expected, actual);
   };
+  hooks.serving = [this](rung_host& host) {
+    log_.serve(host);
+    host.faulted = onFaulted;
+  };
   session_ = std::make_unique<host::Session>(*version.module, sessionOptions(options_), hooks);
-  log_.serve(*session_, onFaulted);
   code().listen(this);
   order_.is_armed.resize(code().points().size());
+  past_.checkpoints.push_back({});  // the begin is always there
   debugged = this;
   thread_ = std::thread([this] { work(); });
 }
@@ -111,8 +115,10 @@ void Execution::park(Outcome outcome) {
 Outcome Execution::resume() {
   std::unique_lock<std::mutex> lock(mutex_);
   turn_ = Turn::Program;
+  is_running_.store(true);
   handed_over_.notify_all();
   handed_over_.wait(lock, [this] { return turn_ == Turn::Client; });
+  is_running_.store(false);
   return outcome_;
 }
 
@@ -353,28 +359,26 @@ Outcome Execution::run(Judge& judge, const Armed& armed) {
 void Execution::arm() {
   code().disarmAll();
   std::fill(order_.is_armed.begin(), order_.is_armed.end(), false);
-  if (order_.armed.all) return code().armAll();
+  std::vector<uint32_t> points = order_.armed.points;
+  for (const uint32_t point : points) order_.is_armed[point] = true;
   const auto add = [&](uint32_t point) {
-    if (point < order_.is_armed.size()) code().arm(point);
+    if (point < order_.is_armed.size()) points.push_back(point);
   };
-  for (const uint32_t point : order_.armed.points) {
-    order_.is_armed[point] = true;
-    add(point);
-  }
   for (size_t i = past_.next_edit; i < past_.edits.size(); ++i) add(past_.edits[i].at.point);
   if (order_.goal) add(order_.goal->point);
+  if (order_.armed.all && order_.armed.watched.empty()) return code().armAll();
+  if (order_.armed.all) return code().armForChanges(order_.armed.watched, points);
+  for (const uint32_t point : points) code().arm(point);
 }
 
 // ---- the past
 
 void Execution::keepCheckpoint() {
-  if (!past_.checkpoints.empty() && now_.unit <= past_.checkpoints.back().unit) return;
-  const bool is_begin = place_.phase <= Phase::Begin;
+  if (now_.unit <= past_.checkpoints.back().unit) return;
   const int64_t begin_ns = host::monotonicNs();
-  if (!is_begin && begin_ns < past_.next_checkpoint_ns) return;
+  if (place_.phase > Phase::Begin && begin_ns < past_.next_checkpoint_ns) return;
   Checkpoint& created = past_.checkpoints.emplace_back();
-  created = {now_.unit, log_.position(), place_, {}};
-  if (place_.phase != Phase::Init) created.state = session_->save();
+  created = {now_.unit, log_.position(), place_, session_->save()};
   past_.checkpoint_bytes += created.state.size();
   const int64_t end_ns = host::monotonicNs();
   past_.next_checkpoint_ns = end_ns + std::max(kLeastDistanceNs, (end_ns - begin_ns) * kShareOfSaving);
@@ -452,8 +456,7 @@ bool Execution::goToCycle(int64_t cycle) {
   return outcome.kind == Outcome::Reached;
 }
 
-void Execution::replay(const Moment& checkpoint, const Moment& to, Judge& judge, const Armed& armed) {
-  restore(findCheckpoint(checkpoint.unit));
+void Execution::replay(const Moment& to, Judge& judge, const Armed& armed) {
   order_.judge = &judge;
   order_.armed = armed;
   order_.goal = to;
@@ -469,7 +472,7 @@ void Execution::edit(std::function<void()> change) {
   ++past_.next_edit;
   log_.cut();
   past_.last_unit = now_.unit;
-  while (!past_.checkpoints.empty() && past_.checkpoints.back().unit > now_.unit) {
+  while (past_.checkpoints.back().unit > now_.unit) {
     past_.checkpoint_bytes -= past_.checkpoints.back().state.size();
     past_.checkpoints.pop_back();
   }
@@ -484,7 +487,10 @@ std::vector<DebugFrame> Execution::frames() {
 
 uint64_t Execution::memoryHash() {
   uint64_t hash = 14695981039346656037ull;
-  for (const uint8_t byte : session_->save()) hash = (hash ^ byte) * 1099511628211ull;
+  std::vector<uint8_t> memory;
+  host::StateArchive archive = host::StateArchive::saving(memory);
+  session_->memory().transfer(archive);
+  for (const uint8_t byte : memory) hash = (hash ^ byte) * 1099511628211ull;
   return hash;
 }
 

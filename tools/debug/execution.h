@@ -103,8 +103,12 @@ class Execution : DebugCode::Listener {
   struct Armed {
     bool all = false;
     std::vector<uint32_t> points;
+    // Of `all`: only at the points, and where one of these has another value. Empty: at each.
+    std::vector<DebugCode::Watched> watched;
   };
   Outcome run(Judge& judge, const Armed& armed);
+  // The program has the turn: only the judge may ask.
+  bool isRunning() const { return is_running_.load(std::memory_order_relaxed); }
   // From any thread: run() returns soon.
   void interrupt();
 
@@ -114,8 +118,8 @@ class Execution : DebugCode::Listener {
   void goTo(const Moment& moment);
   // The same of the begin of a cycle, which may be one that has not run yet. False: the program ends before it.
   bool goToCycle(int64_t cycle);
-  // Runs from a checkpoint to a moment that the program has been at, and asks the judge; its answers do not matter.
-  void replay(const Moment& checkpoint, const Moment& to, Judge& judge, const Armed& armed);
+  // Runs on to a moment that the program has been at, and asks the judge; its answers do not matter.
+  void replay(const Moment& to, Judge& judge, const Armed& armed);
   // The last checkpoint at or before a unit; there always is one.
   Moment checkpointFor(int64_t unit) const;
   // Changes the state of the program, now and when this moment is repeated. What came after it did not happen.
@@ -129,7 +133,7 @@ class Execution : DebugCode::Listener {
   int64_t cycle() const { return place_.cycle; }
   bool hasEnded() const { return place_.phase == Phase::Over; }
   std::string faultText();  // of the fault at which it is
-  uint64_t memoryHash();    // of everything that decides how it goes on
+  uint64_t memoryHash();    // of all variables
 
   host::Session& session() { return *session_; }
   DebugCode& code() const { return *version_.program->debug(); }
@@ -150,8 +154,8 @@ class Execution : DebugCode::Listener {
     int64_t cycle = 0;
   };
   struct Checkpoint {
-    int64_t unit;
-    size_t log;
+    int64_t unit = 0;
+    size_t log = 0;
     Place place;
     host::SessionState state;  // none: of Phase::Init
   };
@@ -234,6 +238,7 @@ class Execution : DebugCode::Listener {
   std::mutex mutex_;
   std::condition_variable handed_over_;
   enum class Turn : uint8_t { Client, Program } turn_ = Turn::Client;
+  std::atomic<bool> is_running_{false};
   Outcome outcome_;
 };
 

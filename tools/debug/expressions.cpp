@@ -477,7 +477,7 @@ Expressions::~Expressions() = default;
 
 std::string Expressions::check(std::string_view text) {
   const Parsed& parsed = parts_->parse(text);
-  if (parsed.root) return "";
+  if (parsed.root && !parsed.diagnostics.hasErrors()) return "";
   return "`" + std::string(text) + "` is not an expression of ST";
 }
 

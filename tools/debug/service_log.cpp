@@ -50,13 +50,18 @@ bool ServiceLog::isFirstReport() {
   return is_first;
 }
 
-void ServiceLog::serve(host::Session& session, void (*faulted)(void*, const rung_context*)) {
-  session_ = session.context().host;
-  host_ = *session_;
-  if (host_.files != nullptr) wrapFiles();
-  if (host_.channels != nullptr) wrapChannels();
-  host_.faulted = faulted;
-  session.context().host = &host_;
+void ServiceLog::serve(rung_host& host) {
+  session_ = host;
+  if (host.files != nullptr) {
+    wrapFiles();
+    host.files = &files_;
+    host.files_data = this;
+  }
+  if (host.channels != nullptr) {
+    wrapChannels();
+    host.channels = &channels_;
+    host.channels_data = this;
+  }
 }
 
 // A service whose answer is a number.
@@ -73,8 +78,6 @@ struct ServiceLog::Forward<member> {
 };
 
 void ServiceLog::wrapFiles() {
-  host_.files = &files_;
-  host_.files_data = this;
   files_.open = Forward<&rung_files::open>::call;
   files_.close = Forward<&rung_files::close>::call;
   files_.write = Forward<&rung_files::write>::call;
@@ -88,29 +91,27 @@ void ServiceLog::wrapFiles() {
   files_.read = [](void* to, int64_t file, void* bytes, uint64_t count) {
     ServiceLog& log = of(to);
     return log.ask(Service::Bytes, bytes, count, [&](int64_t& result) -> size_t {
-      result = log.session_->files->read(log.session_->files_data, file, bytes, count);
+      result = log.session_.files->read(log.session_.files_data, file, bytes, count);
       return result > 0 ? static_cast<size_t>(result) : 0;
     });
   };
   files_.result = [](void* to, int64_t work, void* bytes, uint64_t capacity) {
     ServiceLog& log = of(to);
     return log.ask(Service::Bytes, bytes, capacity, [&](int64_t& result) -> size_t {
-      result = log.session_->files->result(log.session_->files_data, work, bytes, capacity);
+      result = log.session_.files->result(log.session_.files_data, work, bytes, capacity);
       return result > 0 ? capacity : 0;  // bytes or rows
     });
   };
 }
 
 void ServiceLog::wrapChannels() {
-  host_.channels = &channels_;
-  host_.channels_data = this;
   channels_.open = Forward<&rung_channels::open>::call;
   channels_.write = Forward<&rung_channels::write>::call;
   channels_.close = Forward<&rung_channels::close>::call;
   channels_.status = [](void* to, int64_t channel, rung_channel_status* status) {
     ServiceLog& log = of(to);
     return log.ask(Service::Status, status, sizeof *status, [&](int64_t& result) -> size_t {
-      result = log.session_->channels->status(log.session_->channels_data, channel, status);
+      result = log.session_.channels->status(log.session_.channels_data, channel, status);
       return sizeof *status;
     });
   };
@@ -118,7 +119,7 @@ void ServiceLog::wrapChannels() {
     ServiceLog& log = of(to);
     rung_endpoint sender{};
     const int64_t read = log.ask(Service::Bytes, bytes, count, [&](int64_t& result) -> size_t {
-      result = log.session_->channels->read(log.session_->channels_data, channel, bytes, count, &sender);
+      result = log.session_.channels->read(log.session_.channels_data, channel, bytes, count, &sender);
       return result > 0 ? static_cast<size_t>(result) : 0;
     });
     if (from == nullptr) return read;

@@ -14,8 +14,8 @@ namespace rung::debug {
 
 class ServiceLog {
  public:
-  // Puts itself in the place of the session's files and channels. `faulted`: rung_host::faulted.
-  void serve(host::Session& session, void (*faulted)(void* data, const rung_context* context));
+  // Puts itself in the place of the files and channels of a session: SessionHooks::serving.
+  void serve(rung_host& host);
   // The program reports something. True: for the first time.
   bool isFirstReport();
 
@@ -44,13 +44,12 @@ class ServiceLog {
   void wrapChannels();
   static ServiceLog& of(void* data) { return *static_cast<ServiceLog*>(data); }
   // The session's own services.
-  const rung_files& services(const rung_files*) const { return *session_->files; }
-  const rung_channels& services(const rung_channels*) const { return *session_->channels; }
-  void* data(const rung_files*) const { return session_->files_data; }
-  void* data(const rung_channels*) const { return session_->channels_data; }
+  const rung_files& services(const rung_files*) const { return *session_.files; }
+  const rung_channels& services(const rung_channels*) const { return *session_.channels; }
+  void* data(const rung_files*) const { return session_.files_data; }
+  void* data(const rung_channels*) const { return session_.channels_data; }
 
-  const rung_host* session_ = nullptr;
-  rung_host host_{};
+  rung_host session_{};  // as it was
   rung_files files_{};
   rung_channels channels_{};
   std::vector<uint8_t> log_;

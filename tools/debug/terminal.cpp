@@ -671,7 +671,7 @@ int runTerminal(const TerminalOptions& options, driver::Sink& sink) {
   std::deque<std::string> lines;
   std::string error;
   for (const std::string& script : options.scripts)
-    if (!readLines(script, lines, error)) return driver::usageError(sink, script + ": " + error);
+    if (!readLines(script, lines, error)) return driver::usageError(sink, "-x: " + error);
   lines.insert(lines.end(), options.commands.begin(), options.commands.end());
   std::FILE* const out = sink.programOutput();
   std::FILE* const err = sink.programErrors();

@@ -85,6 +85,7 @@ void Session::serve() {
   if (simulated_channels_) simulated_channels_->serve(host_);
   if (channels_) channels_->serve(host_);
   if (files_) files_->serve(host_);
+  if (hooks_.serving) hooks_.serving(host_);
   if (options_.is_isolated) return;
   if (gethostname(machine_name_, sizeof machine_name_ - 1) == 0) host_.name = machine_name_;
   host_.address = findOwnAddress(machine_address_, sizeof machine_address_);

@@ -50,6 +50,8 @@ struct SessionHooks {
   std::function<void(uint8_t severity, const char* text)> message;  // to its operator; a rung_severity
   std::function<void(const rung_assertion& assertion, bool passed, const char* expected, const char* actual)> assertion;
   std::function<void(const char* pou, const void* instance)> called;  // of interpreted modules that report calls
+  // May put others in the place of the services for files and channels, before anything runs.
+  std::function<void(rung_host& host)> serving;
   // Another version has taken over; no activation runs. All that refers to module(), memory(), symbols(), tasks() and
   // forces() of the one before has to refer to those of this one.
   std::function<void()> changed;
