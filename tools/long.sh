@@ -96,11 +96,12 @@ rename() {
 }
 
 debugger() {
+  needs rung
   local programs
   mapfile -t programs < <(find tests/conformance -name '*.st' | sort)
-  tests/dap/steps.py --tests --stops 400 "${programs[@]}"
-  tests/dap/services.py --programs 100 --seed 7
-  tests/dap/fuzz.py --seed 1 --seeds 60 samples/tank
+  PATH=$bin:$PATH tests/dap/steps.py --tests --stops 400 "${programs[@]}"
+  PATH=$bin:$PATH tests/dap/services.py --programs 100 --seed 7
+  PATH=$bin:$PATH tests/dap/fuzz.py --seed 1 --seeds 60 samples/tank
 }
 
 typing() {

@@ -16,6 +16,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from client import Client  # noqa: E402
 
 CYCLES = 3
+PARTS = (["AND"], ["OR"], ["XOR"], ["+"], ["-"], ["*"], ["input"])
 
 
 class Session:
@@ -83,7 +84,7 @@ class Check:
         return len(states)
 
     # What a step into each statement visits is what coverage counts, which leaves tests out. A line that goes on with an
-    # operator is a part of a statement.
+    # operator or a pin is a part of a statement.
     def coverage(self, states):
         lines = {frames[0][1:3] for frames, _ in states}
         texts = open(self.program, encoding="utf-8", errors="replace").read().split("\n")
@@ -97,7 +98,8 @@ class Check:
                     source = os.path.abspath(rest)
                 if kind == "DA" and source == self.program:
                     line, _, count = rest.partition(",")
-                    goes_on = texts[int(line) - 1].split()[:1] in (["AND"], ["OR"], ["XOR"], ["+"], ["-"], ["*"])
+                    before, text = texts[int(line) - 2].strip(), texts[int(line) - 1].split()[:1]
+                    goes_on = text in PARTS or before.endswith((",", "("))
                     if ((source, int(line)) in lines) != (int(count) > 0) and not goes_on:
                         self.problem(f"line {line}: coverage says {count}")
 
