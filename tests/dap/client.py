@@ -16,6 +16,7 @@
 #   set EXPRESSION VALUE
 #   request COMMAND [JSON]     any request, and the body of its response
 #   send TEXT                  a message as it is; bytes JSON: bytes without a header
+#   sh COMMAND                 of the shell
 #   messages                   the events that came since
 import json
 import os
@@ -205,6 +206,8 @@ class Script:
             body = self.body(client.request(command, json.loads(arguments) if arguments else {}))
             if body is not None:
                 print(json.dumps(body).replace(os.getcwd(), "$PWD"))
+        elif word == "sh":
+            subprocess.run(rest, shell=True, check=True)
         elif word == "send":
             client.send(rest)
         elif word == "bytes":

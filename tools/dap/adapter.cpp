@@ -81,6 +81,7 @@ Json capabilities() {
 const Adapter::Request Adapter::kRequests[] = {
     {"initialize", &Adapter::initialize, Request::Nothing},
     {"launch", &Adapter::launch, Request::Nothing},
+    {"attach", &Adapter::attach, Request::Nothing},
     {"configurationDone", &Adapter::configurationDone, Request::Program},
     {"disconnect", &Adapter::disconnect, Request::Nothing},
     {"terminate", &Adapter::terminate, Request::Nothing},
@@ -141,10 +142,13 @@ void Adapter::take(const Received& received) {
   }
   if (message["type"].text() != "request" || !message["command"].isText()) return;  // no answer is expected
   const std::string_view command = message["command"].text();
+  if (attached_ && attached_->take(message, command, message["arguments"])) return;
   for (const Request& request : kRequests) {
     if (command != request.name) continue;
     if (!is_initialized_ && request.answer != &Adapter::initialize && request.answer != &Adapter::disconnect)
       return connection_.refuse(message, "the first request must be `initialize`");
+    if (request.needs != Request::Nothing && attached_)
+      return connection_.refuse(message, "this needs a program that the debugger has launched");
     if (request.needs != Request::Nothing && !target_)
       return connection_.refuse(message, "no program is loaded: `launch` comes first");
     if (request.needs == Request::Stopped && isRunning()) return connection_.refuse(message, "the program runs");
@@ -212,7 +216,7 @@ void Adapter::initialize(const Json& request, const Json& arguments) {
 }
 
 void Adapter::launch(const Json& request, const Json& arguments) {
-  if (target_) return connection_.refuse(request, "a program is loaded already");
+  if (target_ || attached_) return connection_.refuse(request, "a program is loaded already");
   if (arguments["cwd"].isText() && chdir(std::string(arguments["cwd"].text()).c_str()) != 0)
     return connection_.refuse(request, "there is no folder `" + std::string(arguments["cwd"].text()) + "`");
   std::vector<std::string> words;
@@ -242,6 +246,18 @@ void Adapter::launch(const Json& request, const Json& arguments) {
   target_ = std::move(made);
   stops_on_entry_ = arguments["stopOnEntry"].isTrue();
   connection_.whenReceived([execution = target_->execution.get()] { execution->interrupt(); });
+  connection_.respond(request, {});
+  connection_.event("initialized", Json::emptyObject());
+}
+
+void Adapter::attach(const Json& request, const Json& arguments) {
+  if (target_ || attached_) return connection_.refuse(request, "a program is loaded already");
+  if (!arguments["url"].isText())
+    return connection_.refuse(request, "`url` is missing: the one that `rung run --monitor` has printed");
+  auto made = std::make_unique<Attached>(connection_);
+  if (const std::string error = made->connect(std::string(arguments["url"].text())); !error.empty())
+    return connection_.refuse(request, error);
+  attached_ = std::move(made);
   connection_.respond(request, {});
   connection_.event("initialized", Json::emptyObject());
 }

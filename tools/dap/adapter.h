@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/dap/attached.h"
 #include "tools/dap/connection.h"
 #include "tools/debug/target.h"
 
@@ -42,6 +43,7 @@ class Adapter {
   // ---- the session
   void initialize(const Json& request, const Json& arguments);
   void launch(const Json& request, const Json& arguments);
+  void attach(const Json& request, const Json& arguments);
   void configurationDone(const Json& request, const Json& arguments);
   void disconnect(const Json& request, const Json& arguments);
   void terminate(const Json& request, const Json& arguments);
@@ -95,6 +97,7 @@ class Adapter {
   Connection& connection_;
   ParseArguments parse_;
   std::unique_ptr<debug::Target> target_;
+  std::unique_ptr<Attached> attached_;  // instead of a target
   bool is_initialized_ = false, is_configured_ = false, ends_ = false, stops_on_entry_ = false;
   bool pauses_ = false;     // the client asked for it
   bool has_ended_ = false;  // and the client was told

@@ -22,7 +22,7 @@ tools/house/tracked .h .cpp .def | grep -v '^tests/' | xargs -d '\n' grep -Hn '^
     layer["codegen/"] = 10
     layer["tools/driver/"] = 10.5
     layer["tools/workspace/"] = 11
-    layer["tools/protocol/"] = 11.1; layer["tools/ide/"] = 11.1; layer["tools/debug/"] = 11.1; layer["tools/lsp/"] = 11.2; layer["tools/dap/"] = 11.2; layer["tools/monitor/"] = 11.2
+    layer["tools/protocol/"] = 11.1; layer["tools/ide/"] = 11.1; layer["tools/debug/"] = 11.1; layer["tools/lsp/"] = 11.2; layer["tools/dap/"] = 11.3; layer["tools/monitor/"] = 11.2
     layer["tools/"] = 12
     layer["stdlib/"] = -1; layer["cam/"] = -2
   }
