@@ -13,6 +13,7 @@
 #include <map>
 
 #include "stdlib/runtime/host/inputs.h"
+#include "tools/debug/line_editor.h"
 #include "tools/driver/commands.h"
 
 namespace rung::debug {
@@ -45,6 +46,7 @@ class Terminal {
   // False: the session ends.
   bool obey(const std::string& line);
   int exitCode() const { return exit_code_; }
+  LineEditor::Completion completionOf(const std::string& line);
 
  private:
   struct Command {
@@ -653,6 +655,40 @@ bool Terminal::obey(const std::string& written) {
   return !ends_;
 }
 
+// The commands, then names of POUs and variables.
+LineEditor::Completion Terminal::completionOf(const std::string& line) {
+  LineEditor::Completion found;
+  const size_t blank = line.find_last_of(" \t(");
+  found.begin = blank == std::string::npos ? 0 : blank + 1;
+  const std::string word = line.substr(found.begin);
+  const auto add = [&](const std::string& name) {
+    if (strncasecmp(name.c_str(), word.c_str(), word.size()) == 0) found.words.push_back(name);
+  };
+  if (blank == std::string::npos) {
+    for (const Command& command : kCommands) add(command.name);
+    return found;
+  }
+  const size_t dot = word.find_last_of('.');
+  const DebugFrame* const at = selected();
+  std::vector<ShownVariable> known;
+  if (dot != std::string::npos) {
+    const Evaluated base = debugger_.evaluate(word.substr(0, dot), at);
+    if (base.error.empty() && !base.place.isEmpty()) known = debugger_.values().inside(base.place, 0, UINT64_MAX);
+    for (const ShownVariable& one : known) add(word.substr(0, dot + 1) + one.name);
+  } else {
+    for (const ir::interpreter::DebugBody& body : execution().code().bodies())
+      if (body.is_shown && !body.is_library) add(body.name);
+    if (at != nullptr) known = debugger_.values().locals(*at);
+    for (const ShownVariable& one : known) add(one.name);
+    if (at != nullptr) known = debugger_.values().instance(*at);
+    for (const ShownVariable& one : known) add(one.name);
+    for (const ShownVariable& one : debugger_.values().globals()) add(one.name);
+  }
+  std::sort(found.words.begin(), found.words.end());
+  found.words.erase(std::unique(found.words.begin(), found.words.end()), found.words.end());
+  return found;
+}
+
 bool readLines(const std::string& path, std::deque<std::string>& lines, std::string& error) {
   std::string content;
   if (!host::readFile(path, content, error)) return false;
@@ -693,16 +729,12 @@ int runTerminal(const TerminalOptions& options, driver::Sink& sink) {
     if (!goes_on) break;
     if (!line.empty()) goes_on = terminal.obey(line);
   }
-  const bool is_interactive = isatty(0) != 0;
+  const bool is_interactive = isatty(0) != 0 && isatty(1) != 0;
+  LineEditor editor("(rung) ", [&](const std::string& line) { return terminal.completionOf(line); });
   while (goes_on && !options.is_batch) {
-    if (is_interactive) {
-      fputs("(rung) ", out);
-      fflush(out);
-    }
     std::string line;
-    if (!std::getline(std::cin, line)) break;
-    if (line.empty() && !is_interactive) continue;
-    goes_on = terminal.obey(line);
+    if (is_interactive ? !editor.read(line) : !std::getline(std::cin, line)) break;
+    if (!line.empty() || is_interactive) goes_on = terminal.obey(line);
   }
   interruptible = nullptr;
   return terminal.exitCode();
