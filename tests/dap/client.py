@@ -244,7 +244,7 @@ def main():
     for line in sys.stdin:
         line = line.strip()
         if line and not line.startswith("#"):
-            print(">", line)
+            print("--", line)
             sys.stdout.flush()
             script.obey(line)
     print("exit", client.end())

@@ -286,7 +286,7 @@ void Adapter::terminate(const Json& request, const Json&) {
 }
 
 void Adapter::restart(const Json& request, const Json&) {
-  debugger().execution().goTo({});
+  debugger().execution().restart();
   has_ended_ = false;
   is_configured_ = false;
   configurationDone(request, {});

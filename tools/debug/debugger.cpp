@@ -362,7 +362,7 @@ void Debugger::standAt() {
   depth_ = execution_.isInside() ? execution_.depth() : 0;
 }
 
-Stop Debugger::run() {
+void Debugger::placeBreakpoints() {
   for (auto& at : at_point_) at.clear();
   const auto place = [&](std::vector<Breakpoint>& all) {
     for (Breakpoint& one : all)
@@ -370,6 +370,10 @@ Stop Debugger::run() {
   };
   for (auto& [path, all] : by_file_) place(all);
   place(functions_);
+}
+
+Stop Debugger::run() {
+  placeBreakpoints();
   found_ = {};
   const Outcome outcome = execution_.run(*this, armed());
   return stopOf(outcome);
@@ -434,7 +438,9 @@ Stop Debugger::goToCycle(int64_t cycle) {
   const bool is_there = execution_.goToCycle(cycle);
   standAt();
   if (is_there) return {Stop::Goto, "", {}, 0};
-  return {Stop::Ended, "the program ends before cycle " + std::to_string(cycle), {}, 0};
+  const char* const why =
+      execution_.hasEnded() ? "the program ends before cycle " : "the history does not reach cycle ";
+  return {Stop::Ended, why + std::to_string(cycle), {}, 0};
 }
 
 // ---- back
@@ -450,7 +456,7 @@ bool Debugger::searchBack(const Execution::Armed& armed, Predicate predicate) {
     if (at != to && predicate(at, machine)) found = at;
   };
   Recorder<decltype(note)> recorder(note);
-  for (int64_t unit = to.point == RUNG_NONE ? to.unit - 1 : to.unit; unit >= 0;) {
+  for (int64_t unit = to.point == RUNG_NONE ? to.unit - 1 : to.unit; unit >= execution_.firstUnit();) {
     const Moment checkpoint = execution_.checkpointFor(unit);
     execution_.goTo(checkpoint);
     rememberWatched();
@@ -486,12 +492,7 @@ Stop Debugger::stepBack(Granularity granularity) {
 Stop Debugger::reverse() {
   step_.is_active = false;
   const Execution::Armed wanted = armed();
-  for (auto& at : at_point_) at.clear();
-  for (auto& [path, all] : by_file_)
-    for (Breakpoint& one : all)
-      for (const uint32_t point : one.points) at_point_[point].push_back(&one);
-  for (Breakpoint& one : functions_)
-    for (const uint32_t point : one.points) at_point_[point].push_back(&one);
+  placeBreakpoints();
   Stop stop;
   const bool is_found = searchBack(wanted, [&](const Moment& at, const Machine& machine) {
     bool is_hit = false;
@@ -515,7 +516,7 @@ Stop Debugger::reverse() {
   });
   found_ = {};
   if (is_found) return stop;
-  execution_.goTo(execution_.checkpointFor(0));
+  execution_.goTo(execution_.checkpointFor(execution_.firstUnit()));
   standAt();
   return {Stop::HistoryBegins, "the begin of the program", {}, 0};
 }
@@ -531,7 +532,7 @@ Stop Debugger::lastWrite(const std::string& path) {
   Moment to = origin;
   std::optional<Moment> writer;
   std::string text;
-  for (int64_t unit = to.point == RUNG_NONE ? to.unit - 1 : to.unit; unit >= 0 && !writer;) {
+  for (int64_t unit = to.point == RUNG_NONE ? to.unit - 1 : to.unit; unit >= execution_.firstUnit() && !writer;) {
     const Moment checkpoint = execution_.checkpointFor(unit);
     std::optional<Moment> last;
     execution_.goTo(checkpoint);

@@ -115,6 +115,7 @@ class Debugger : Judge {
   bool stopsAtFault(const Moment& at, bool is_handled) override;
   bool stopsAtAssertion(const Moment& at) override;
 
+  void placeBreakpoints();
   Stop run();
   Stop stopOf(const Outcome& outcome);
   void bind(Breakpoint& breakpoint, const std::string& file);
@@ -150,7 +151,6 @@ class Debugger : Judge {
   bool has_frames_ = false;
   uint32_t task_ = 0;
   size_t depth_ = 0;
-  uint32_t run_to_ = RUNG_NONE;
   std::vector<uint32_t> run_to_points_;
 };
 

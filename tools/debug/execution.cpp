@@ -45,7 +45,7 @@ Execution::Execution(driver::ProgramVersion& version, ExecutionOptions options)
   session_ = std::make_unique<host::Session>(*version.module, sessionOptions(options_), hooks);
   code().listen(this);
   order_.is_armed.resize(code().points().size());
-  past_.checkpoints.push_back({});  // the begin is always there
+  past_.checkpoints.push_back({});
   debugged = this;
   thread_ = std::thread([this] { work(); });
 }
@@ -240,7 +240,7 @@ void Execution::runOn() {
     applyEdits(now_);
     if (parksAtBorder()) continue;
     keepCheckpoint();
-    session_->setReplaying(now_.unit <= past_.last_unit && now_.unit > 0);
+    session_->setReplaying(now_.unit <= past_.last_unit);
     past_.last_unit = std::max(past_.last_unit, now_.unit);
     if (!runUnit()) continue;
     now_ = {now_.unit + 1};
@@ -382,7 +382,20 @@ void Execution::keepCheckpoint() {
   past_.checkpoint_bytes += created.state.size();
   const int64_t end_ns = host::monotonicNs();
   past_.next_checkpoint_ns = end_ns + std::max(kLeastDistanceNs, (end_ns - begin_ns) * kShareOfSaving);
-  if (historyBytes() > options_.history_bytes) thinOut();
+  if (historyBytes() <= options_.history_bytes) return;
+  thinOut();
+  if (log_.bytes() > options_.history_bytes / 2) forgetOldest();
+}
+
+// The answers of files and peers are needed as a whole from the first checkpoint on, so half of them go with the
+// checkpoints that need them.
+void Execution::forgetOldest() {
+  const size_t half = log_.position() - log_.bytes() / 2;
+  while (past_.checkpoints.size() > 1 && past_.checkpoints.front().log < half) {
+    past_.checkpoint_bytes -= past_.checkpoints.front().state.size();
+    past_.checkpoints.pop_front();
+  }
+  log_.forgetBefore(past_.checkpoints.front().log);
 }
 
 // Every second of the older ones goes, so that the oldest are the sparsest. The first two stay.
@@ -427,6 +440,17 @@ void Execution::restore(const Checkpoint& checkpoint) {
     ++past_.next_edit;
 }
 
+void Execution::restart() {
+  leaveActivation();
+  log_.clear();
+  past_ = {};
+  past_.checkpoints.push_back({});
+  place_ = {};
+  now_ = {};
+  is_asked_ = false;
+  inputs_->goTo(0);
+}
+
 void Execution::goTo(const Moment& moment) {
   if (moment == now_) return;
   restore(findCheckpoint(moment.unit));
@@ -445,6 +469,7 @@ bool Execution::goToCycle(int64_t cycle) {
     return it.phase <= Phase::Cycles && (it.cycle < cycle || (it.cycle == cycle && !it.is_in_cycle));
   };
   while (last > 0 && !isBefore(past_.checkpoints[last].place)) --last;
+  if (!isBefore(past_.checkpoints[last].place)) return false;
   restore(past_.checkpoints[last]);
   order_.judge = nullptr;
   order_.armed = {};

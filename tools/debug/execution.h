@@ -116,12 +116,17 @@ class Execution : DebugCode::Listener {
   Moment now() const { return now_; }
   // Goes to a moment that the program has been at; no judge is asked.
   void goTo(const Moment& moment);
-  // The same of the begin of a cycle, which may be one that has not run yet. False: the program ends before it.
+  // The same of the begin of a cycle, which may be one that has not run yet. False: the program has ended before it, or
+  // it was so long ago that it is forgotten.
   bool goToCycle(int64_t cycle);
   // Runs on to a moment that the program has been at, and asks the judge; its answers do not matter.
   void replay(const Moment& to, Judge& judge, const Armed& armed);
-  // The last checkpoint at or before a unit; there always is one.
+  // The last checkpoint at or before a unit, which is one of the history.
   Moment checkpointFor(int64_t unit) const;
+  // Where the history begins: the first unit, unless there was too much of it.
+  int64_t firstUnit() const { return past_.checkpoints.front().unit; }
+  // From the begin, as another run: there is no past any more.
+  void restart();
   // Changes the state of the program, now and when this moment is repeated. What came after it did not happen.
   void edit(std::function<void()> change);
 
@@ -186,6 +191,7 @@ class Execution : DebugCode::Listener {
   void arm();
   void keepCheckpoint();
   void thinOut();
+  void forgetOldest();
   void restore(const Checkpoint& checkpoint);
   const Checkpoint& findCheckpoint(int64_t unit) const;
   void leaveActivation();
@@ -214,7 +220,7 @@ class Execution : DebugCode::Listener {
     std::deque<Checkpoint> checkpoints;
     size_t checkpoint_bytes = 0;
     int64_t next_checkpoint_ns = 0;
-    int64_t last_unit = 0;  // that has begun at some time
+    int64_t last_unit = -1;  // that has begun at some time
     int64_t traced_cycles = 0;
     std::vector<Edit> edits;  // in the order of their moments
     size_t next_edit = 0;     // the first that is not done yet

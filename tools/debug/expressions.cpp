@@ -35,8 +35,10 @@ struct Operand {
   std::string text;
 };
 
-struct Parsed {
-  Parsed(std::string_view text, Names& names, Dialect dialect) {
+}  // namespace
+
+struct ParsedExpression {
+  ParsedExpression(std::string_view text, Names& names, Dialect dialect) {
     root =
         text::parseExpression(tree, names, sources, sources.add("expression", std::string(text)), dialect, diagnostics);
   }
@@ -45,8 +47,6 @@ struct Parsed {
   Tree tree;
   ExprId root;
 };
-
-}  // namespace
 
 struct Expressions::Parts {
   Parts(Execution& of_execution, Values& of_values, BeforeCycle before)
@@ -57,7 +57,7 @@ struct Expressions::Parts {
   BeforeCycle before_cycle;
   Names names;
   types::TypeTable table{names, sizeof(void*)};
-  std::unordered_map<std::string, std::unique_ptr<Parsed>> parsed;
+  std::unordered_map<std::string, std::unique_ptr<ParsedExpression>> parsed;
   const Tree* tree = nullptr;
   const DebugFrame* frame = nullptr;
   uint32_t depth = 0;
@@ -69,11 +69,11 @@ struct Expressions::Parts {
   }
   const rung_module& module() const { return execution.module(); }
 
-  const Parsed& parse(std::string_view text) {
+  const ParsedExpression& parse(std::string_view text) {
     constexpr size_t kMost = 256;
     if (parsed.size() > kMost) parsed.clear();
-    std::unique_ptr<Parsed>& known = parsed[std::string(text)];
-    if (!known) known = std::make_unique<Parsed>(text, names, execution.options().dialect);
+    std::unique_ptr<ParsedExpression>& known = parsed[std::string(text)];
+    if (!known) known = std::make_unique<ParsedExpression>(text, names, execution.options().dialect);
     return *known;
   }
 
@@ -476,7 +476,7 @@ Expressions::Expressions(Execution& execution, Values& values, BeforeCycle befor
 Expressions::~Expressions() = default;
 
 std::string Expressions::check(std::string_view text) {
-  const Parsed& parsed = parts_->parse(text);
+  const ParsedExpression& parsed = parts_->parse(text);
   if (parsed.root && !parsed.diagnostics.hasErrors()) return "";
   return "`" + std::string(text) + "` is not an expression of ST";
 }
@@ -485,7 +485,7 @@ Evaluated Expressions::evaluate(std::string_view text, const DebugFrame* frame) 
   Evaluated result;
   result.error = check(text);
   if (!result.error.empty()) return result;
-  const Parsed& parsed = parts_->parse(text);
+  const ParsedExpression& parsed = parts_->parse(text);
   parts_->tree = &parsed.tree;
   parts_->frame = frame;
   parts_->error.clear();

@@ -41,6 +41,13 @@ int64_t ServiceLog::ask(Service service, void* bytes, size_t capacity, Call call
   return result;
 }
 
+void ServiceLog::forgetBefore(size_t position) {
+  log_.erase(log_.begin(), log_.begin() + static_cast<ptrdiff_t>(position - forgotten_));
+  log_.shrink_to_fit();
+  next_ -= position - forgotten_;
+  forgotten_ = position;
+}
+
 bool ServiceLog::isFirstReport() {
   bool is_first = false;
   ask(Service::Report, nullptr, 0, [&](int64_t&) -> size_t {

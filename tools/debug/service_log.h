@@ -19,10 +19,12 @@ class ServiceLog {
   // The program reports something. True: for the first time.
   bool isFirstReport();
 
-  size_t position() const { return next_; }  // of the next answer
-  void goTo(size_t position) { next_ = position; }
-  void cut() { log_.resize(next_); }  // what follows did not happen
-  size_t bytes() const { return log_.capacity(); }
+  size_t position() const { return forgotten_ + next_; }  // of the next answer
+  void goTo(size_t position) { next_ = position - forgotten_; }
+  void cut() { log_.resize(next_); }   // what follows did not happen
+  void forgetBefore(size_t position);  // nothing goes back there any more
+  void clear() { log_.clear(), next_ = forgotten_ = 0; }
+  size_t bytes() const { return log_.size(); }
   // The program asked something else than before: it does not repeat itself.
   bool hasDiverged() const { return has_diverged_; }
 
@@ -53,7 +55,7 @@ class ServiceLog {
   rung_files files_{};
   rung_channels channels_{};
   std::vector<uint8_t> log_;
-  size_t next_ = 0;
+  size_t next_ = 0, forgotten_ = 0;
   bool has_diverged_ = false;
 };
 

@@ -62,11 +62,11 @@ class Terminal {
 
   // ---- running
   void run(const std::string&) {
-    if (execution().now() != Moment{}) execution().goTo({});
+    if (execution().now() != Moment{}) execution().restart();
     show(debugger_.resume());
   }
   void start(const std::string&) {
-    if (execution().now() != Moment{}) execution().goTo({});
+    if (execution().now() != Moment{}) execution().restart();
     show(debugger_.step(StepKind::Into, Granularity::Statement));
   }
   void resume(const std::string& arguments) {
