@@ -372,7 +372,55 @@ void Debugger::placeBreakpoints() {
   place(functions_);
 }
 
+// Breakpoints stay where they were in the source.
+void Debugger::bindAgain() {
+  at_point_.assign(execution_.code().points().size(), {});
+  const auto clear = [](Breakpoint& one) {
+    one.points.clear();
+    one.is_bound = false;
+    one.problem.clear();
+  };
+  for (auto& [path, all] : by_file_) {
+    const std::string file = fileOf(path);
+    for (Breakpoint& one : all) {
+      clear(one);
+      if (!file.empty()) bind(one, file);
+    }
+  }
+  for (Breakpoint& one : functions_) {
+    clear(one);
+    bindFunction(one);
+  }
+  for (Breakpoint& one : data_) {
+    clear(one);
+    bindData(one);
+  }
+}
+
+// The version that runs completes its cycle; the other one begins the next.
+void Debugger::attendChange() {
+  if (!new_version_) return;
+  std::string problem, report;
+  std::shared_ptr<driver::ProgramVersion> next = new_version_(problem);
+  if (next && !execution_.isBeforeCycle() && !execution_.goToCycle(execution_.cycle() + 1))
+    problem = "the program has ended";
+  else if (next)
+    problem = execution_.change(std::move(next), report);
+  if (!problem.empty()) execution_.options().print("error: " + problem + "\n", true);
+  if (report.empty()) return;
+  execution_.options().print(report, true);
+  bindAgain();
+  standAt();
+  step_.unit = execution_.now().unit - 1;
+  step_.cycle = execution_.cycle() - 1;
+  step_.depth = 0;
+  step_.point = RUNG_NONE;
+  run_to_points_.clear();
+  rememberWatched();
+}
+
 Stop Debugger::run() {
+  attendChange();
   placeBreakpoints();
   found_ = {};
   const Outcome outcome = execution_.run(*this, armed());

@@ -61,6 +61,9 @@ enum class Granularity : uint8_t { Statement, Line, Network };
 class Debugger : Judge {
  public:
   explicit Debugger(Execution& execution);
+  // Asked when the program is to run: another version of it, or null, and what is wrong with it.
+  using NewVersion = std::function<std::shared_ptr<driver::ProgramVersion>(std::string& problem)>;
+  void newVersion(NewVersion make) { new_version_ = std::move(make); }
 
   // ---- breakpoints; each call replaces those of its kind, those of a file that of this file
   const std::vector<Breakpoint>& setBreakpoints(const std::string& file, std::vector<BreakpointWish> wishes);
@@ -116,6 +119,8 @@ class Debugger : Judge {
   bool stopsAtAssertion(const Moment& at) override;
 
   void placeBreakpoints();
+  void attendChange();
+  void bindAgain();
   Stop run();
   Stop stopOf(const Outcome& outcome);
   void bind(Breakpoint& breakpoint, const std::string& file);
@@ -146,6 +151,7 @@ class Debugger : Judge {
   Exceptions exceptions_;
   uint32_t next_id_ = 1;
   StepState step_;
+  NewVersion new_version_;
   Stop found_;  // by the judge
   std::vector<DebugFrame> frames_;
   bool has_frames_ = false;

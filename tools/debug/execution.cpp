@@ -31,8 +31,8 @@ host::SessionOptions sessionOptions(const ExecutionOptions& options) {
 
 }  // namespace
 
-Execution::Execution(driver::ProgramVersion& version, ExecutionOptions options)
-    : version_(version), options_(std::move(options)), is_test_(!options_.test.empty()) {
+Execution::Execution(std::shared_ptr<driver::ProgramVersion> version, ExecutionOptions options)
+    : version_(std::move(version)), options_(std::move(options)), is_test_(!options_.test.empty()) {
   host::SessionHooks hooks;
   hooks.message = [this](uint8_t severity, const char* text) { onMessage(severity, text); };
   hooks.assertion = [this](const rung_assertion& assertion, bool passed, const char* expected, const char* actual) {
@@ -42,7 +42,7 @@ Execution::Execution(driver::ProgramVersion& version, ExecutionOptions options)
     log_.serve(host);
     host.faulted = onFaulted;
   };
-  session_ = std::make_unique<host::Session>(*version.module, sessionOptions(options_), hooks);
+  session_ = std::make_unique<host::Session>(*version_->module, sessionOptions(options_), hooks);
   code().listen(this);
   order_.is_armed.resize(code().points().size());
   past_.checkpoints.push_back({});
@@ -164,7 +164,7 @@ void Execution::atPoint(uint32_t point, const Machine& machine) {
 }
 
 Moment Execution::instructionOf(const Machine& machine) const {
-  return {now_.unit, stepsOf(machine), kAtInstruction | version_.program->debug()->instruction(machine.ip)};
+  return {now_.unit, stepsOf(machine), kAtInstruction | version_->program->debug()->instruction(machine.ip)};
 }
 
 // A __TRY handles it; the host hears of all others, whoever raises them.
@@ -503,6 +503,42 @@ void Execution::edit(std::function<void()> change) {
   }
   change();
   past_.edits.push_back({now_, std::move(change)});
+}
+
+std::string Execution::change(std::shared_ptr<driver::ProgramVersion> next, std::string& report) {
+  const host::ChangeReport made = session_->change(*next->module, next, false, 0);
+  report = made.text();
+  if (!made.error.empty()) return made.error;
+  code().disarmAll();
+  code().listen(nullptr);
+  version_ = std::move(next);
+  code().listen(this);
+  order_.is_armed.assign(code().points().size(), false);
+  const auto note = [&](const char* option, const std::vector<std::string>& missing) {
+    for (const std::string& path : missing)
+      report += std::string("warning: ") + option + ": the program does not have `" + path + "` any more\n";
+  };
+  note("--inputs", inputs_->moveTo(session_->symbols()));
+  note("--watch", trace_->moveTo(session_->symbols()));
+  std::string error;
+  if (stop_on_ && !stop_on_.emplace(session_->symbols()).parse(options_.run.stop_on, error)) {
+    report += "warning: --stop-on: " + error + "\n";
+    stop_on_.reset();
+  }
+  if (retain_ && !retain_->moveTo(session_->symbols(), session_->memory(), error)) report += "warning: " + error + "\n";
+  forgetPast();
+  return "";
+}
+
+// The history begins where the program is, between two activations.
+void Execution::forgetPast() {
+  log_.clear();
+  const int64_t traced = past_.traced_cycles;
+  past_ = {};
+  past_.traced_cycles = traced;
+  past_.last_unit = now_.unit - 1;
+  past_.checkpoints.push_back({now_.unit, 0, place_, session_->save()});
+  past_.checkpoint_bytes = past_.checkpoints.back().state.size();
 }
 
 std::vector<DebugFrame> Execution::frames() {

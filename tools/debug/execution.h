@@ -90,7 +90,7 @@ class Judge {
 
 class Execution : DebugCode::Listener {
  public:
-  Execution(driver::ProgramVersion& version, ExecutionOptions options);
+  Execution(std::shared_ptr<driver::ProgramVersion> version, ExecutionOptions options);
   ~Execution();
   Execution(const Execution&) = delete;
   Execution& operator=(const Execution&) = delete;
@@ -130,6 +130,12 @@ class Execution : DebugCode::Listener {
   // Changes the state of the program, now and when this moment is repeated. What came after it did not happen.
   void edit(std::function<void()> change);
 
+  // ---- another version of the program
+  // Before a cycle; an error message, or an empty string, and then `report` says what becomes of the variables. The
+  // history begins here.
+  std::string change(std::shared_ptr<driver::ProgramVersion> next, std::string& report);
+  bool isBeforeCycle() const { return place_.phase == Phase::Cycles && !place_.is_in_cycle && !isInside(); }
+
   // ---- where it is
   bool isInside() const { return machine_ != nullptr; }  // an activation
   size_t depth() const { return DebugCode::depth(*machine_); }
@@ -141,8 +147,8 @@ class Execution : DebugCode::Listener {
   uint64_t memoryHash();    // of all variables
 
   host::Session& session() { return *session_; }
-  DebugCode& code() const { return *version_.program->debug(); }
-  const rung_module& module() const { return *version_.module; }
+  DebugCode& code() const { return *version_->program->debug(); }
+  const rung_module& module() const { return *version_->module; }
   const host::ShownPaths& paths() const { return options_.run.paths; }
   const ExecutionOptions& options() const { return options_; }
   // How much the past takes.
@@ -192,12 +198,13 @@ class Execution : DebugCode::Listener {
   void keepCheckpoint();
   void thinOut();
   void forgetOldest();
+  void forgetPast();
   void restore(const Checkpoint& checkpoint);
   const Checkpoint& findCheckpoint(int64_t unit) const;
   void leaveActivation();
   static int64_t stepsOf(const Machine& machine);
 
-  driver::ProgramVersion& version_;
+  std::shared_ptr<driver::ProgramVersion> version_;
   const ExecutionOptions options_;
   ServiceLog log_;
   std::unique_ptr<host::Session> session_;

@@ -18,6 +18,32 @@ std::string refusedOption(const host::RunOptions& run) {
 
 }  // namespace
 
+namespace {
+
+// What a compilation says while the program is debugged.
+class GatheredText final : public driver::Sink {
+ public:
+  void message(std::string_view what) override { text += what; }
+  std::string output(std::string_view) override { return ""; }
+  std::string text;
+};
+
+}  // namespace
+
+void Target::watchFiles(const driver::ProjectOptions& project, const driver::RunOptions& run) {
+  const auto watch = std::make_shared<driver::SourceWatch>(project);
+  debugger->newVersion([watch, project, run](std::string& problem) -> std::shared_ptr<driver::ProgramVersion> {
+    // Somebody who steps has saved: the files are quiet.
+    if (!watch->hasChanged() && !watch->hasChanged()) return nullptr;
+    GatheredText gathered;
+    driver::PhaseTimes times;
+    auto made = std::make_shared<driver::ProgramVersion>();
+    if (driver::makeProgram(project, run, true, times, gathered, *made) == driver::kSuccess) return made;
+    problem = "the new version does not compile\n" + gathered.text;
+    return nullptr;
+  });
+}
+
 int Target::make(const TargetOptions& options, std::function<void(const std::string& text, bool is_error)> print,
                  driver::Sink& sink, std::string& error) {
   ExecutionOptions wanted;
@@ -39,10 +65,12 @@ int Target::make(const TargetOptions& options, std::function<void(const std::str
   driver::RunOptions run = options.run;
   run.engine = driver::Engine::Interpreter;
   driver::PhaseTimes times;
-  const int exit = driver::makeProgram(compiling, run, true, times, sink, version);
+  compiling.code.online_change = run.watch_files;
+  version = std::make_shared<driver::ProgramVersion>();
+  const int exit = driver::makeProgram(compiling, run, true, times, sink, *version);
   if (exit != driver::kSuccess) return exit;
 
-  wanted.run.paths = host::ShownPaths(version.paths.begin(), version.paths.end());
+  wanted.run.paths = host::ShownPaths(version->paths.begin(), version->paths.end());
   wanted.run.out = sink.programOutput();
   wanted.run.err = sink.programErrors();
   wanted.dialect = options.project.dialect;
@@ -52,6 +80,7 @@ int Target::make(const TargetOptions& options, std::function<void(const std::str
   execution = std::make_unique<Execution>(version, std::move(wanted));
   if (!execution->load(error)) return driver::kUsage;
   debugger = std::make_unique<Debugger>(*execution);
+  if (run.watch_files) watchFiles(compiling, run);
   return driver::kSuccess;
 }
 

@@ -10,6 +10,7 @@
 #include "tools/debug/debugger.h"
 #include "tools/driver/options.h"
 #include "tools/driver/sink.h"
+#include "tools/driver/source_watch.h"
 
 namespace rung::debug {
 
@@ -21,13 +22,16 @@ struct TargetOptions {
 };
 
 struct Target {
-  driver::ProgramVersion version;
+  std::shared_ptr<driver::ProgramVersion> version;  // the first
   std::unique_ptr<Execution> execution;
   std::unique_ptr<Debugger> debugger;
 
   // Returns an exit code; what is wrong with the project goes to the sink, what is wrong with the options to `error`.
   int make(const TargetOptions& options, std::function<void(const std::string& text, bool is_error)> print,
            driver::Sink& sink, std::string& error);
+
+ private:
+  void watchFiles(const driver::ProjectOptions& project, const driver::RunOptions& run);
 };
 
 }  // namespace rung::debug
