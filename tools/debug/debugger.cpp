@@ -67,15 +67,13 @@ std::string Debugger::shownFile(const char* file) const { return host::shownPath
 
 std::string Debugger::fileOf(const std::string& path) const {
   const std::string wanted = absolute(path);
+  const char* known = nullptr;
   std::string by_end;
   for (const DebugPoint& point : execution_.code().points()) {
-    if (path == point.file || absolute(shownFile(point.file)) == wanted) return point.file;
-  }
-  for (const DebugPoint& point : execution_.code().points()) {  // a part of the path, as gdb takes it
-    const std::string_view file = point.file;
-    if (file.size() > path.size() && file.substr(file.size() - path.size()) == path &&
-        file[file.size() - path.size() - 1] == '/')
-      return point.file;
+    if (point.file == known) continue;
+    known = point.file;
+    if (path == known || absolute(shownFile(known)) == wanted) return known;
+    if (std::string_view(known).ends_with('/' + path)) by_end = known;  // a part of the path, as gdb takes it
   }
   return by_end;
 }
