@@ -140,17 +140,36 @@ class Project:
             return "", "the project has errors then"
         return "", self.difference(after)
 
-    # Tables of names have hashes of them, and where they begin in one text: their comments say what is in them.
-    def difference(self, after):
-        def shape(name, text):
-            text = re.sub(r"[ \t]+|// bodies from .*", " ", text.lower().replace(SUFFIX, "")).replace("_globals", "")
+    # What is defined and declared in all files: names decide the order of both, and in which file a body is. Tables of
+    # names have hashes of them, and where they begin in one text: their comments say what is in them.
+    @staticmethod
+    def shape(files):
+        found = set()
+        for name, text in files.items():
+            text = re.sub(r"[ \t]+|// bodies from .*", " ", text.lower().replace(SUFFIX, ""))
+            text = text.replace("_globals", "").replace("rung_inline ", "")
             text = re.sub(r'(assertion = \{"[^"]*", \d+), \d+', r"\1", text)  # the column
             if name == "sites.cpp":  # lines and columns
-                return re.sub(r"\d+", "0", text)
-            return sorted(set(re.findall(r"// (.*)", text))) if name == "module.cpp" else text
-        after = {name.lower().replace(SUFFIX, ""): text for name, text in after.items()}
-        changed = [name for name, text in self.base.items() if shape(name, text) != shape(name, after.get(name.lower(), ""))]
-        return "%s is another one" % changed[0] if changed else ""
+                continue
+            if name == "module.cpp":
+                found.update(re.findall(r"// .*", text))
+                continue
+            # Numbers of sites count in each file.
+            text = re.sub(r"\bsites_code\w*( \+ \d+u)?|, \d+u(?=, )|\bat = \d+", "site", text)
+            definition = []
+            for line in text.split("\n"):
+                if line.strip() == "" or line.startswith(("//", "namespace")):
+                    continue
+                definition.append(line)
+                if line[0] != " " and not line.endswith(("{", ":")):
+                    found.add("\n".join(definition))
+                    definition = []
+        return found
+
+    def difference(self, after):
+        before, then = self.shape(self.base), self.shape(after)
+        changed = sorted(before - then) + sorted(then - before)
+        return "there is another `%s`" % changed[0].split("\n")[0] if changed else ""
 
     def taken(self, file, begin, end):
         other_file, other_begin, other_end = self.random.choice(self.names)

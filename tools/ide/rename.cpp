@@ -60,6 +60,7 @@ std::string refusalOf(const View& view, const Target& target) {
 
 Target targetAt(const View& view, FileId file, uint32_t byte) {
   Target target;
+  target.renamable.refusal = "there is no name here that the project declares";
   if (view.snapshot().project() == nullptr) return target;
   target.outer = outerNameAt(view, file, byte);
   if (target.outer) {
@@ -79,8 +80,7 @@ Target targetAt(const View& view, FileId file, uint32_t byte) {
         target.renamable.at = reference.at;
     if (target.renamable.at) target.renamable.name = textAt(view, target.renamable.at);
   }
-  target.renamable.refusal =
-      target.renamable.at ? refusalOf(view, target) : "there is no name here that the project declares";
+  if (target.renamable.at) target.renamable.refusal = refusalOf(view, target);
   return target;
 }
 
