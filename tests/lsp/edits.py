@@ -23,7 +23,8 @@ import urllib.parse
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from client import CAPABILITIES, Client, read_text, uri  # noqa: E402
 
-SOURCES = (".st", ".il", ".tcpou", ".tcdut", ".tcgvl", ".tctto", ".tcio", ".plcproj", ".xml", ".exp", ".nct", ".cam", "rung.project")
+SOURCES = (".st", ".il", ".pou", ".tcpou", ".tcdut", ".tcgvl", ".tctto", ".tcio", ".plcproj", ".xml", ".exp", ".nct", ".cam",
+           "rung.project")
 TYPED = ["x", ";", " ", "\n", "(", ")", "'", "IF ", "END_IF", ":=", "n.", "VAR", "END_VAR", "<", "]]>", "//", "(*", "{", "ü"]
 
 # Requests at a position, and of a document.

@@ -103,7 +103,7 @@ class Project:
                 continue
             name, edits = change["textDocument"]["uri"], change["edits"]
             file = path_of(name)
-            text = texts[file] if file in texts else read_text(file)
+            text = texts[file] if file in texts else self.texts.setdefault(file, read_text(file))
             for edit in reversed(edits):
                 begin, end = (offset_of(text, edit["range"][side]) for side in ("start", "end"))
                 text = text[:begin] + edit["newText"] + text[end:]

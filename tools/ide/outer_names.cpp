@@ -56,6 +56,10 @@ class OuterNames {
     return std::any_of(project_.global_lists.begin() + 1, project_.global_lists.end(),
                        [&](const sema::GlobalList& list) { return folded(list.name) == path.back(); });
   }
+  // Whether a configuration or resource has the name.
+  bool hasPart(const std::string& name) const {
+    return std::any_of(parts_.begin(), parts_.end(), [&](const auto& part) { return part.first.back() == name; });
+  }
   // As it is declared, with the names around it; empty: nowhere.
   std::string shown(OuterKind kind, const Path& path) const {
     if (kind == OuterKind::List) return {};
@@ -211,13 +215,13 @@ class OuterNames {
   void instancePath(std::span<const Ident> path, const Surroundings& around) {
     Path part;
     for (size_t i = 0; i < path.size() && i < 2; ++i) {
-      const Entity known = entityAt(path[i].loc);
-      if (known.entityKind() == EntityKind::GlobalList) return list(known, path[i]);
-      if (known) return;
       const std::string name = folded(path[i].name);
       Path found = with(part, name);
       if (parts_.count(found) == 0 && !around.part.empty()) found = {around.part[0], name};
-      if (parts_.count(found) == 0) return;
+      if (parts_.count(found) == 0) {
+        const Entity known = entityAt(path[i].loc);
+        return known.entityKind() == EntityKind::GlobalList ? list(known, path[i]) : void();
+      }
       add(found.size() == 1 ? OuterKind::Configuration : OuterKind::Resource, found, path[i].loc);
       part = found;
     }
@@ -256,14 +260,16 @@ class OuterNames {
     }
     if (tree_.kind(id) != ExprKind::Name) return false;
     path.insert(path.begin(), Ident{tree_.as<NameExpr>(id).name, tree_.loc(id)});
+    if (!around.part.empty()) {
+      const size_t before = places_.size();
+      instancePath(path, around);
+      if (places_.size() != before) return true;
+    }
     const Entity first = entityAt(path[0].loc);
     const EntityKind kind = first.entityKind();
     const bool is_value = kind == EntityKind::Var || kind == EntityKind::Program || kind == EntityKind::Property;
     if (is_value || qualified(path, around, 1)) return true;
-    if (kind == EntityKind::GlobalList)
-      list(first, path[0]);
-    else if (!around.part.empty())
-      instancePath(path, around);
+    if (kind == EntityKind::GlobalList) list(first, path[0]);
     return true;
   }
 
@@ -340,7 +346,14 @@ std::optional<OuterName> outerNameAt(const View& view, FileId file, uint32_t byt
 bool isOuterNameTaken(const View& view, const OuterName& name, std::string_view new_name) {
   Path path = name.path;
   path.back() = foldedIdentifier(new_name);
-  return path != name.path && OuterNames(view).has(name.kind, path);
+  if (path == name.path) return false;
+  const OuterNames names(view);
+  if (name.kind != OuterKind::Configuration && name.kind != OuterKind::Resource) return names.has(name.kind, path);
+  // `Cpu.one` names a configuration, a resource or an instance.
+  const auto& instances = view.snapshot().project()->instances;
+  return names.hasPart(path.back()) || std::any_of(instances.begin(), instances.end(), [&](const auto& instance) {
+           return sameIdentifier(view.names().string(instance.name), new_name);
+         });
 }
 
 ListDeclaration declarationOfList(const View& view, const OuterName& list) {

@@ -48,7 +48,7 @@ Renaming renameOuter(const View& view, const OuterName& name, const std::string&
   const NameChange change{name.name, new_name};
   const std::string refused = asWritten(name.name) + " cannot become " + asWritten(new_name) + ": ";
   if (isOuterNameTaken(view, name, new_name)) {
-    renaming.refusal = refused + "there is a " + std::string(wordOf(name.kind)) + " of this name";
+    renaming.refusal = refused + "something else has this name";
     return renaming;
   }
   std::vector<TextEdit> edits;

@@ -154,7 +154,9 @@ bool isSurelyFree(const View& view, const Target& target, const Edits& edits, co
   const bool is_new = !view.names().find(change.to);
   const bool is_free = is_new || (declarations.size() == 1 && isFreeFor(view, declarations.front(), change.to));
   if (!is_free) return false;
-  if (!isTiedToOthers(view, target)) return knowsAllOccurrences(view, change.from, edits);
+  if (!isTiedToOthers(view, target))
+    return knowsAllOccurrences(view, change.from, edits,
+                               codeThatSees(view, declarations.empty() ? Entity{} : declarations.front()));
   return is_new && std::none_of(declarations.begin(), declarations.end(), isProgramInstance) &&
          areAllOccurrences(view, change.from, edits);
 }
