@@ -14,6 +14,8 @@
 #               files, and 60 sessions of requests in any order
 # typing        20 files of each folder of samples and vendors' projects typed from the first character to the last in the
 #               language server, and random edits: it says what a cold check says (COUNT, FIRST)
+# editor_fuzz   40 000 messages of a stranger to the language server: one answer to each request, and no end (COUNT, FIRST)
+# editor        10 000 edits of a project of 100 000 lines with requests in between: CPU time of each, and memory (COUNT)
 # changes       1 000 random edits of running programs: what keeps its value, and how the program goes on (COUNT, FIRST)
 # forces        10 000 random sequences of force, unforce, write, stop and cycles against a model (COUNT, FIRST)
 # monitor       20 000 random and damaged requests to the monitor of a program that runs (COUNT, FIRST)
@@ -113,6 +115,16 @@ typing() {
     PATH=$bin:$PATH tests/lsp/edits.py "$folder" --seed "$first" --type "${COUNT:-20}"
     PATH=$bin:$PATH tests/lsp/edits.py "$folder" --seed "$first" --pauses "${COUNT:-20}"
   done
+}
+
+editor_fuzz() {
+  needs rung
+  PATH=$bin:$PATH tests/lsp/fuzz.py "$first" "${COUNT:-40000}"
+}
+
+editor() {
+  needs rung
+  PATH=$bin:$PATH RUNG_CLIENT_SECONDS=7200 tests/bench/editor.py "${COUNT:-10000}"
 }
 
 changes() {
@@ -244,7 +256,7 @@ compilers() {
   CXX=clang++ "$bin/rung_test_runner" tests/conformance
 }
 
-all=(differential networks mutants frames snapshots rename typing debugger changes forces monitor page modifiers bodies mutation profiles cams kills tsan
+all=(differential networks mutants frames snapshots rename typing editor_fuzz editor debugger changes forces monitor page modifiers bodies mutation profiles cams kills tsan
      service vscode lateness asan debug tidy conversions conformance packages compilers)
 parts=("$@")
 [ ${#parts[@]} -gt 0 ] || parts=("${all[@]}")

@@ -253,11 +253,17 @@ TypeId checkRefused(Context& context, CallExpr& node, const Arguments& arguments
   return meaning(node.h).type = types::kError;
 }
 
+// Of Plant.Half the last name.
+Loc nameOfCallee(const Context& context, const CallExpr& node) {
+  const bool is_path = node.callee && context.tree().kind(node.callee) == ExprKind::Member;
+  return is_path ? context.tree().loc(node.callee) : node.h.loc;
+}
+
 PouId calledOf(Context& context, const CallExpr& node, PouId named, bool& checked) {
   const PouId pou = isOverloaded(context, named) ? chooseOverload(context, node, named, checked) : named;
   if (!pou) return {};
   resolvePou(context, pou);
-  noteCall(context, pou, node.h.loc);
+  noteCall(context, pou, node.h.loc, nameOfCallee(context, node));
   return pou;
 }
 
@@ -328,7 +334,7 @@ TypeId callBlock(Context& context, ExprId expr, PouId pou, CallKind kind, bool a
   CallExpr& node = context.code().as<CallExpr>(expr);
   Meaning& known = meaning(node.h);
   resolvePou(context, pou);
-  noteCall(context, pou, node.h.loc);
+  noteCall(context, pou, node.h.loc, nameOfCallee(context, node));
   const Arguments arguments = matchArguments(context, node, pou);
   Call call;
   call.kind = kind;

@@ -10,11 +10,12 @@
 
 namespace rung::sema {
 
-void noteCall(Context& context, PouId callee, Loc loc) {
+void noteCall(Context& context, PouId callee, Loc loc, Loc name) {
   Pou& pou = context.symbols.pou(callee);
   pou.progress.used = true;
   const bool is_block = pou.kind == PouKind::FunctionBlock || pou.kind == PouKind::Class;
-  if (!is_block) noteMention(context, entity(callee), loc, Access::Call);  // the name of a block is not written there
+  // The name of a block is not written there.
+  if (!is_block) noteMention(context, entity(callee), name ? name : loc, Access::Call);
   if (pou.kind == PouKind::Program) noteEffect(context);
   if (pou.decl) context.rules->use(context, {callee, context.tree().decl(pou.decl), pou.name, loc, true});
   // Of library blocks only those that may ask for a task (checks/task_needs.cpp).

@@ -7,7 +7,8 @@
 
 namespace rung::sema {
 
-void noteCall(Context& context, PouId callee, Loc loc);
+// `name`: where the name of the callee is; none: at `loc`.
+void noteCall(Context& context, PouId callee, Loc loc, Loc name = {});
 // Sorts calls and writes by the POU that has them, each one's in the order of its body. When all bodies are checked.
 void sortEffects(Project& project);
 

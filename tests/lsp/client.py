@@ -31,7 +31,7 @@ import re
 import subprocess
 import sys
 
-SECONDS = 120
+SECONDS = int(os.environ.get("RUNG_CLIENT_SECONDS", "120"))
 CAPABILITIES = {
     "general": {"positionEncodings": ["utf-16"]},
     "textDocument": {

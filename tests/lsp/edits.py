@@ -23,7 +23,8 @@ import urllib.parse
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from client import CAPABILITIES, Client, read_text, uri  # noqa: E402
 
-SOURCES = (".st", ".il", ".tcpou", ".tcdut", ".tcgvl", ".xml", ".exp", ".nct")
+SOURCES = (".st", ".il", ".pou", ".tcpou", ".tcdut", ".tcgvl", ".tctto", ".tcio", ".plcproj", ".xml", ".exp", ".nct", ".cam",
+           "rung.project")
 TYPED = ["x", ";", " ", "\n", "(", ")", "'", "IF ", "END_IF", ":=", "n.", "VAR", "END_VAR", "<", "]]>", "//", "(*", "{", "ü"]
 
 # Requests at a position, and of a document.
@@ -168,7 +169,7 @@ class Session:
                 rows = self.texts[path].replace("\r\n", "\n").replace("\r", "\n").split("\n")
                 column = len(rows[line][:column].encode("utf-16-le")) // 2
             if path != ".":  # an opened folder without sources is not a mistake
-                found.append((path, line, column, one["code"], one["message"]))
+                found.append((path, line, column, one["code"], one["message"].split("\n")[0]))
         return sorted(set(found))
 
     # ---- asking

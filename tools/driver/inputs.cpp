@@ -345,14 +345,22 @@ class Collector {
       fail(diag, path, args);
       return false;
     };
+    // A file of a folder that holds no text: the others are checked, without the names that it may have.
+    const auto isNoText = [&](Diag diag) {
+      if (named) return failed(diag, {path});
+      diagnostics_.report(diag, {}, {path}).path(path);
+      ++inputs_.missing_files;
+      inputs_.unread = true;
+      return false;
+    };
     if (stat(path.c_str(), &info) == 0 && static_cast<uint64_t>(info.st_size) >= UINT32_MAX)
       return failed(diag::TooMuchInput, {path});
     ReadResult read = files_.read(path);
     if (!read.error.empty()) return failed(diag::CannotRead, {path, read.error});
     inputs_.read.push_back(path);
-    if (!decodeUtf16(read.content)) return failed(diag::Utf16File, {path});
+    if (!decodeUtf16(read.content)) return isNoText(diag::Utf16File);
     source.kind = importer::kindOf(path, read.content);
-    if (source.kind == FileKind::Binary) return failed(diag::BinaryFile, {path});
+    if (source.kind == FileKind::Binary) return isNoText(diag::BinaryFile);
     if (source.kind == FileKind::Unknown) return failed(diag::UnknownFileKind, {path});
     if (importer::isProject(source.kind)) return false;
     if (!importer::holdsProgram(source.kind) && importer::roleOf(source.kind) != FileRole::Messages) {

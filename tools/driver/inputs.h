@@ -50,8 +50,8 @@ struct Inputs {
   std::vector<importer::Message> messages;  // of this ladder
   bool has_ladder = false;                  // a .nct file was read
   bool is_twincat = false;                  // a .plcproj was read
-  bool unread = false;                      // a vendor's file could not be understood: its declarations are missing
-  uint32_t missing_files = 0;               // that a .plcproj lists: one error each, and the others are checked
+  bool unread = false;                      // a file could not be understood: its declarations are missing
+  uint32_t missing_files = 0;               // that a .plcproj lists, and binary files: one error each
   bool io_error = false;                    // something could not be read: exit 2
 };
 

@@ -324,10 +324,83 @@ bool isPlain(std::string_view value) {
   return true;
 }
 
+// A value as it is in the file; where the file has it otherwise, at its place.
+void addValue(xml::SourceMappedText& text, const Sources& sources, Loc at, std::string_view value) {
+  const FileId file = sources.fileOf(at);
+  const uint32_t begin = at.offset - sources.begin(file).offset;
+  if (sources.original(file).substr(begin, value.size()) == value)
+    text.add(at, {at.offset + static_cast<uint32_t>(value.size())});
+  else
+    text.put(at, value);
+}
+
+// Where `[task NAME]` has its name.
+Loc nameOfSection(const Sources& sources, const ProjectSection& section) {
+  const FileId file = sources.fileOf(section.loc);
+  const uint32_t begin = section.loc.offset - sources.begin(file).offset;
+  const std::string_view text = sources.original(file);
+  const size_t kind = text.find(section.kind, begin);
+  const size_t name = kind == std::string_view::npos ? kind : text.find(section.name, kind + section.kind.size());
+  return name == std::string_view::npos ? section.loc : Loc{section.loc.offset + static_cast<uint32_t>(name - begin)};
+}
+
+struct ProjectProgram {
+  const ProjectSection* task;
+  std::string name, type;
+  Loc name_loc, type_loc;
+};
+
+// `programs = Type, instance : Type`.
+void collectPrograms(const ProjectSection& section, Diagnostics& diagnostics, std::vector<ProjectProgram>& programs) {
+  const ProjectEntry* const entry = section.find("programs");
+  if (entry == nullptr) return;
+  for (const std::string_view part : split(entry->value, ',')) {
+    const std::string_view item = trim(part);
+    if (item.empty()) continue;
+    const auto locOf = [&](std::string_view at) {
+      return Loc{entry->value_loc.offset + static_cast<uint32_t>(at.data() - entry->value.data())};
+    };
+    const size_t colon = item.find(':');
+    const std::string_view type = trim(item.substr(colon == std::string_view::npos ? 0 : colon + 1));
+    const std::string_view name = trim(item.substr(0, colon));
+    const std::string keyword(text::isReservedWord(name) ? name : text::isReservedWord(type) ? type : "");
+    if (!keyword.empty() || !isModuleName(name) || !isModuleName(type)) {
+      const std::string why = keyword.empty() ? "it takes `Program` or `instance : Program`, separated by commas"
+                                              : "`" + keyword + "` is a keyword";
+      diagnostics.report(diag::ProjectValue, locOf(item), {entry->key, why}).length(static_cast<uint32_t>(item.size()));
+      continue;
+    }
+    programs.push_back({&section, std::string(name), std::string(type), locOf(name), locOf(type)});
+  }
+}
+
+// TASK NAME(…) of a section.
+void writeTask(xml::SourceMappedText& text, const Sources& sources, Diagnostics& diagnostics,
+               const ProjectSection& section) {
+  text.put(section.loc, "TASK ");
+  addValue(text, sources, nameOfSection(sources, section), section.name);
+  text.put(section.loc, "(");
+  const char* separator = "";
+  for (const ProjectEntry& entry : section.entries) {
+    if (entry.key == "programs" || entry.key == "duration") continue;
+    if (!isPlain(entry.value)) {
+      badValue(diagnostics, entry, "it takes one number, time or name");
+      continue;
+    }
+    std::string value = entry.value;
+    if (entry.key == "kind") value = upper(value);
+    if (entry.key == "interval" || entry.key == "watchdog") value = duration(value);
+    text.put(entry.key_loc, separator + upper(entry.key) + " := ");
+    addValue(text, sources, entry.value_loc, value);
+    separator = ", ";
+  }
+  text.put(section.loc, ");\n");
+}
+
 // TASK and PROGRAM declarations of the [task] sections, each value at its place in the file.
 FileId writeTasks(Sources& sources, Diagnostics& diagnostics, const ProjectFile& project) {
   xml::SourceMappedText text(sources);
-  std::vector<std::pair<Loc, std::string>> programs;
+  std::vector<ProjectProgram> programs;
   for (const ProjectSection& section : project.sections) {
     if (section.kind != "task" || section.name.empty() || isAboutDeclaredTask(section)) continue;
     if (const bool reserved = text::isReservedWord(section.name); reserved || !isModuleName(section.name)) {
@@ -336,45 +409,19 @@ FileId writeTasks(Sources& sources, Diagnostics& diagnostics, const ProjectFile&
       continue;
     }
     if (text.empty()) text.put(section.loc, "CONFIGURATION rung_project RESOURCE rung_project_resource ON PLC\n");
-    text.put(section.loc, "TASK " + section.name + "(");
-    const char* separator = "";
-    for (const ProjectEntry& entry : section.entries) {
-      if (entry.key == "programs" || entry.key == "duration") continue;
-      if (!isPlain(entry.value)) {
-        badValue(diagnostics, entry, "it takes one number, time or name");
-        continue;
-      }
-      std::string value = entry.value;
-      if (entry.key == "kind") value = upper(value);
-      if (entry.key == "interval" || entry.key == "watchdog") value = duration(value);
-      text.put(entry.key_loc, separator + upper(entry.key) + " := ");
-      text.put(entry.value_loc, value);
-      separator = ", ";
-    }
-    text.put(section.loc, ");\n");
-    if (const ProjectEntry* entry = section.find("programs")) {
-      for (const std::string_view part : split(entry->value, ',')) {
-        const std::string item(trim(part));
-        if (item.empty()) continue;
-        const auto at = static_cast<uint32_t>(trim(part).data() - entry->value.data());
-        const Loc loc{entry->value_loc.offset + at};
-        // `Type` or `instance : Type`
-        size_t colon = item.find(':');
-        std::string type(trim(std::string_view(item).substr(colon == std::string::npos ? 0 : colon + 1)));
-        std::string name(trim(std::string_view(item).substr(0, colon)));
-        const std::string keyword = text::isReservedWord(name) ? name : text::isReservedWord(type) ? type : "";
-        if (!keyword.empty() || !isModuleName(name) || !isModuleName(type)) {
-          const std::string why = keyword.empty() ? "it takes `Program` or `instance : Program`, separated by commas"
-                                                  : "`" + keyword + "` is a keyword";
-          diagnostics.report(diag::ProjectValue, loc, {entry->key, why}).length(static_cast<uint32_t>(item.size()));
-          continue;
-        }
-        programs.emplace_back(loc, "PROGRAM " + name + " WITH " + section.name + " : " + type + ";\n");
-      }
-    }
+    writeTask(text, sources, diagnostics, section);
+    collectPrograms(section, diagnostics, programs);
   }
   if (text.empty()) return {};
-  for (const auto& [loc, program] : programs) text.put(loc, program);
+  for (const ProjectProgram& program : programs) {
+    text.put(program.name_loc, "PROGRAM ");
+    addValue(text, sources, program.name_loc, program.name);
+    text.word(" WITH ");
+    addValue(text, sources, nameOfSection(sources, *program.task), program.task->name);
+    text.word(" : ");
+    addValue(text, sources, program.type_loc, program.type);
+    text.word(";\n");
+  }
   text.word("END_RESOURCE END_CONFIGURATION\n");
   return text.finish(sources, project.file);
 }

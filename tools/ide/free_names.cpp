@@ -44,6 +44,27 @@ bool hasName(std::string_view text, std::string_view name) {
   return false;
 }
 
+std::vector<Range> codeThatSees(const View& view, Entity entity) {
+  const sema::Project& project = view.meanings().scope().project();
+  if (entity.entityKind() != EntityKind::Var) return {};
+  const sema::Var& var = project.vars[entity.index];
+  const bool is_local = var.section == SectionKind::Local || var.section == SectionKind::Temp;
+  if (!is_local || !var.pou || project.pou(var.pou).owner) return {};
+  const PouKind kind = project.pou(var.pou).kind;
+  if (kind != PouKind::Function && kind != PouKind::FunctionBlock) return {};
+  std::vector<Range> code;
+  for (uint32_t i = 1; i < project.pous.size(); ++i) {
+    const sema::Pou& pou = project.pous[i];
+    if (pou.instance.of || pou.owner || !isDerivedFrom(project, {i}, var.pou)) continue;
+    if (!pou.decl) return {};
+    const Range whole = extentOf(view.tree(), pou.decl);
+    const Range now{view.sources().current(whole.begin), view.sources().current(whole.end)};
+    if (!(now.begin < now.end)) return {};
+    code.push_back(now);
+  }
+  return code;
+}
+
 bool isFreeFor(const View& view, Entity entity, std::string_view name) {
   const Scope& scope = view.meanings().scope();
   const sema::Project& project = scope.project();

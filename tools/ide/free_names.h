@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string_view>
+#include <vector>
 
 #include "tools/ide/scope.h"
 #include "tools/ide/view.h"
@@ -12,6 +13,9 @@ namespace rung::ide {
 
 // False: perhaps it is not.
 bool isFreeFor(const View& view, Entity entity, std::string_view name);
+// The code that can name a local variable of a function or block: that of its POU, and of those that extend it. Empty:
+// also other code may.
+std::vector<Range> codeThatSees(const View& view, Entity entity);
 // Not a part of a longer name; in any case of letters.
 bool hasName(std::string_view text, std::string_view name);
 

@@ -8,6 +8,7 @@
 #include "tools/ide/code_lens.h"
 #include "tools/ide/inlay_hints.h"
 #include "tools/ide/navigation.h"
+#include "tools/ide/outer_names.h"
 #include "tools/ide/signature.h"
 #include "tools/ide/source_text.h"
 #include "tools/ide/timing_drawings.h"
@@ -119,7 +120,8 @@ class Describer {
     std::string out;
     if (!program || project_.pou(program).kind != PouKind::Program) return out;
     for (const sema::ProgramInstance& instance : project_.instances)
-      if (instance.program == program) out += taskOf(instance);
+      if (const std::string task = instance.program == program ? taskOf(instance) : ""; out.find(task) == out.npos)
+        out += task;
     return out;
   }
 
@@ -207,11 +209,21 @@ std::string markdownOf(const Description& description) {
   return out + description.facts;
 }
 
+// `NAMESPACE Plant.Drives`.
+std::string outerText(const OuterName& name) {
+  const auto declarations = std::count_if(name.references.begin(), name.references.end(),
+                                          [](const Reference& reference) { return reference.is_declaration; });
+  const std::string blocks = declarations > 1 ? "\n\nin " + std::to_string(declarations) + " blocks" : "";
+  return markdownOf({upper(wordOf(name.kind)) + " " + name.full, {}, blocks});
+}
+
 }  // namespace
 
 Description describe(const View& view, Entity entity) { return Describer(view).of(entity); }
 
 std::optional<Hover> hoverAt(const View& view, const LibraryIndex& libraries, FileId file, uint32_t byte) {
+  if (const std::optional<OuterName> name = outerNameAt(view, file, byte); name && name->kind != OuterKind::List)
+    return Hover{name->at, outerText(*name)};
   if (const std::optional<NamePlace> place = nameAt(view, file, byte)) {
     const Description description = describe(view, place->entity);
     if (!description.declaration.empty()) return Hover{view.nameInFile(place->loc), markdownOf(description)};

@@ -33,10 +33,10 @@ MeaningRecord::MeaningRecord(const View& view, const Edits* edits, const std::st
                              const std::string& new_name)
     : old_name_(old_name), new_name_(new_name) {
   if (view.snapshot().project() == nullptr) return;
-  std::vector<NameId> keys;
+  std::vector<NameId> keys;  // none: all
   for (const std::string* name : {&old_name, &new_name})
     if (const NameId known = view.names().find(*name)) keys.push_back(view.names().key(known));
-  add(view, edits, keys);
+  if (!keys.empty() || new_name.empty()) add(view, edits, keys);
   for (const Diagnostic& diagnostic : view.snapshot().diagnostics())
     if (isProblem(diagnostic))
       problems_.insert({spotOf(view, edits, view.tokenInFile(diagnostic.loc)), diagInfo(diagnostic.diag).code});
@@ -47,7 +47,8 @@ void MeaningRecord::add(const View& view, const Edits* edits, const std::vector<
   const auto addAll = [&](const std::vector<sema::Mention>& mentions) {
     for (const sema::Mention& mention : mentions) {
       const NameId name = scope.nameOf(mention.entity);
-      if (!name || std::find(keys.begin(), keys.end(), view.names().key(name)) == keys.end()) continue;
+      if (!name) continue;
+      if (!keys.empty() && std::find(keys.begin(), keys.end(), view.names().key(name)) == keys.end()) continue;
       const FileRange at = view.nameInFile(mention.loc);
       if (!at) continue;
       meant_.push_back({spotOf(view, edits, at), spotOf(view, edits, view.nameInFile(scope.locOf(mention.entity)))});

@@ -16,7 +16,7 @@ namespace rung::ide {
 // Values, which need no view any more.
 class MeaningRecord {
  public:
-  // `edits`: that are not made in the view; null: it has them.
+  // `edits`: that are not made in the view; null: it has them. Of two empty names the meaning of all names counts.
   MeaningRecord(const View& view, const Edits* edits, const std::string& old_name, const std::string& new_name);
 
   // What another project with the same edits means otherwise, or has as a new error; empty: nothing.

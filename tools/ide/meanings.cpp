@@ -146,13 +146,20 @@ class Collector {
   void networks(const PouDecl& decl, PouId pou) {
     const std::span<const DiagramElement> elements = tree_.list(decl.diagram.elements);
     for (const DiagramElement& element : elements) {
-      if (element.path) add(tree_.loc(element.path), meanings_.valueOf(pou, element.path).entity);
+      if (element.path) add(tree_.loc(element.path), boxOf(element, pou));
       for (const DiagramPin& pin : tree_.list(element.pins)) {
         boxPin(pou, element, pin.name);
         for (const DiagramWire& wire : tree_.list(pin.wires))
           if (wire.from < elements.size()) boxPin(pou, elements[wire.from], wire.pin);
       }
     }
+  }
+
+  // The type of a box with an instance, which may have a variable's name.
+  Entity boxOf(const DiagramElement& element, PouId pou) const {
+    const bool is_type = element.operand && tree_.kind(element.path) == ExprKind::Name;
+    const Entity type = is_type ? scope_.typeNamed(keyOf(tree_.as<NameExpr>(element.path).name)) : Entity{};
+    return type ? type : meanings_.valueOf(pou, element.path).entity;
   }
 
   void boxPin(PouId pou, const DiagramElement& element, const Ident& pin) {

@@ -5,6 +5,7 @@
 
 #include "frontend/syntax/children.h"
 #include "frontend/syntax/node_at.h"
+#include "tools/ide/outer_names.h"
 
 namespace rung::ide {
 namespace {
@@ -110,6 +111,17 @@ std::optional<Navigation> labelAt(const View& view, Loc at) {
   return result;
 }
 
+// Of a namespace each block that has it.
+std::optional<Navigation> outerDeclarations(const View& view, FileId file, uint32_t byte) {
+  const std::optional<OuterName> name = outerNameAt(view, file, byte);
+  if (!name || name->kind == OuterKind::List) return std::nullopt;
+  Navigation result{name->at, {}};
+  for (const Reference& reference : name->references)
+    if (reference.is_declaration) result.destinations.push_back({reference.at, reference.at});
+  if (result.destinations.empty()) return std::nullopt;
+  return result;
+}
+
 }  // namespace
 
 std::optional<NamePlace> nameAt(const View& view, FileId file, uint32_t byte) {
@@ -134,6 +146,7 @@ std::optional<Destination> destinationOf(const View& view, Entity entity) {
 }
 
 std::optional<Navigation> navigate(const View& view, FileId file, uint32_t byte, NavigationKind kind) {
+  if (std::optional<Navigation> found = outerDeclarations(view, file, byte)) return found;
   const std::optional<NamePlace> place = nameAt(view, file, byte);
   if (!place) {
     const Loc at = view.parsedAt(file, byte);

@@ -14,12 +14,14 @@ namespace {
 
 class Occurrences {
  public:
-  Occurrences(const View& view, std::string_view name, const Edits& known, bool only_edits)
+  Occurrences(const View& view, std::string_view name, const Edits& known, bool only_edits,
+              const std::vector<Range>& where)
       : view_(view),
         project_(*view.snapshot().project()),
         name_(name),
         folded_(foldedIdentifier(name)),
-        only_edits_(only_edits) {
+        only_edits_(only_edits),
+        where_(where) {
     for (const TextEdit& edit : known.all()) known_.insert(keyOf(edit.range));
     const NameId id = view.names().find(name);
     key_ = id ? view.names().key(id) : NameId{};
@@ -45,13 +47,15 @@ class Occurrences {
 
   bool areKnownIn(const FileUnit& unit) {
     const std::string_view source = view_.sources().sourceText(unit.file);
-    if (!mayHaveName(source)) return true;
-    if (hasConditions(unit)) return false;
     const uint32_t base = view_.sources().begin(unit.file).offset;
+    if (!isAsked({{base}, {base + static_cast<uint32_t>(source.size())}}) || !mayHaveName(source)) return true;
+    if (hasConditions(unit)) return false;
     Scanner scanner(source);
     for (Unit piece = scanner.next(); piece.kind != UnitKind::End; piece = scanner.next()) {
       const std::string_view text = scanner.textOf(piece);
       if (piece.kind == UnitKind::Comment || piece.kind == UnitKind::String || text.size() < name_.size()) continue;
+      const Loc begin{base + static_cast<uint32_t>(piece.begin)};
+      if (!isAsked({begin, {begin.offset + 1}})) continue;
       if (piece.kind == UnitKind::Name && text.size() == name_.size()) {
         const Loc loc{base + static_cast<uint32_t>(piece.begin)};
         if (sameIdentifier(text, name_) && known_.count(keyOf(view_.nameInFile(loc))) == 0 &&
@@ -62,6 +66,12 @@ class Occurrences {
       }
     }
     return true;
+  }
+
+  bool isAsked(Range part) const {
+    return where_.empty() || std::any_of(where_.begin(), where_.end(), [&](const Range& range) {
+             return range.begin < part.end && part.begin < range.end;
+           });
   }
 
   // {IF defined (type: Color)}, which the parsed text has not any more.
@@ -108,18 +118,19 @@ class Occurrences {
   std::string_view name_;
   std::string folded_;
   bool only_edits_;
+  const std::vector<Range>& where_;
   NameId key_;
   std::unordered_set<uint64_t> known_;  // places in files
 };
 
 }  // namespace
 
-bool knowsAllOccurrences(const View& view, std::string_view name, const Edits& known) {
-  return Occurrences(view, name, known, false).areKnown();
+bool knowsAllOccurrences(const View& view, std::string_view name, const Edits& known, const std::vector<Range>& where) {
+  return Occurrences(view, name, known, false, where).areKnown();
 }
 
 bool areAllOccurrences(const View& view, std::string_view name, const Edits& known) {
-  return Occurrences(view, name, known, true).areKnown();
+  return Occurrences(view, name, known, true, {}).areKnown();
 }
 
 }  // namespace rung::ide

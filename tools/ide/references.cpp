@@ -6,6 +6,7 @@
 #include "frontend/syntax/children.h"
 #include "tools/ide/matching_words.h"
 #include "tools/ide/navigation.h"
+#include "tools/ide/outer_names.h"
 
 namespace rung::ide {
 namespace {
@@ -176,6 +177,7 @@ std::vector<Reference> labelsAt(const View& view, Loc at) {
 
 std::vector<Reference> referencesAt(const View& view, FileId file, uint32_t byte) {
   if (view.snapshot().project() == nullptr) return {};
+  if (std::optional<OuterName> name = outerNameAt(view, file, byte)) return std::move(name->references);
   if (const std::optional<NamePlace> place = nameAt(view, file, byte)) {
     const FileRange at = view.nameInFile(place->loc);
     const std::string_view written = view.textOf(at.file).substr(at.begin, at.end - at.begin);

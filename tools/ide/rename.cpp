@@ -11,6 +11,7 @@
 #include "tools/ide/meaning_check.h"
 #include "tools/ide/navigation.h"
 #include "tools/ide/occurrences.h"
+#include "tools/ide/outer_rename.h"
 #include "tools/ide/references.h"
 #include "tools/ide/vendor_names.h"
 
@@ -34,7 +35,8 @@ std::string_view textAt(const View& view, const FileRange& at) {
 // What a name at a place stands for, and all places with it.
 struct Target {
   Renamable renamable;
-  std::vector<Entity> declarations;  // none: a label
+  std::vector<Entity> declarations;  // none: a label, or `outer`
+  std::optional<OuterName> outer;
   std::vector<Reference> references;
   bool is_complete = true;  // they are all places that the check knows
 };
@@ -58,7 +60,13 @@ std::string refusalOf(const View& view, const Target& target) {
 
 Target targetAt(const View& view, FileId file, uint32_t byte) {
   Target target;
+  target.renamable.refusal = "there is no name here that the project declares";
   if (view.snapshot().project() == nullptr) return target;
+  target.outer = outerNameAt(view, file, byte);
+  if (target.outer) {
+    target.renamable = {refusalOfOuter(view, *target.outer), target.outer->at, target.outer->name};
+    return target;
+  }
   if (const std::optional<NamePlace> place = nameAt(view, file, byte)) {
     const Family family(view.meanings().scope(), place->entity);
     target.renamable.at = view.nameInFile(place->loc);
@@ -72,8 +80,7 @@ Target targetAt(const View& view, FileId file, uint32_t byte) {
         target.renamable.at = reference.at;
     if (target.renamable.at) target.renamable.name = textAt(view, target.renamable.at);
   }
-  target.renamable.refusal =
-      target.renamable.at ? refusalOf(view, target) : "there is no name here that the project declares";
+  if (target.renamable.at) target.renamable.refusal = refusalOf(view, target);
   return target;
 }
 
@@ -93,8 +100,9 @@ bool hasWord(std::string_view text, std::string_view word) {
   return false;
 }
 
-// The body in C++ that has one of the names; empty: none has. Variables of another POU are not visible there.
-std::string bodyInCpp(const View& view, const std::vector<Entity>& declarations, const NameChange& change) {
+// Why a body in C++, which no rename changes, forbids the names; empty: none does. Variables of another POU are not
+// visible there.
+std::string useInCpp(const View& view, const std::vector<Entity>& declarations, const NameChange& change) {
   const sema::Project& project = *view.snapshot().project();
   for (const sema::Pou& pou : project.pous) {
     if (!pou.decl || pou.library || view.tree().kind(pou.decl) != DeclKind::Pou) continue;
@@ -109,7 +117,10 @@ std::string bodyInCpp(const View& view, const std::vector<Entity>& declarations,
         decl.body_begin.offset - view.sources().begin(file).offset, decl.body_end.offset - decl.body_begin.offset);
     // Functions are called there in capitals.
     const auto has = [&](const std::string& name) { return hasWord(body, name) || hasWord(body, upper(name)); };
-    if (has(change.from) || has(change.to)) return std::string(view.names().string(pou.name));
+    for (const std::string* name : {&change.from, &change.to})
+      if (has(*name))
+        return "the C++ body of " + asCode(view.names().string(pou.name)) + " uses " + asCode(*name) +
+               (name == &change.from ? ", and code in C++ is not changed" : "");
   }
   return {};
 }
@@ -143,7 +154,9 @@ bool isSurelyFree(const View& view, const Target& target, const Edits& edits, co
   const bool is_new = !view.names().find(change.to);
   const bool is_free = is_new || (declarations.size() == 1 && isFreeFor(view, declarations.front(), change.to));
   if (!is_free) return false;
-  if (!isTiedToOthers(view, target)) return knowsAllOccurrences(view, change.from, edits);
+  if (!isTiedToOthers(view, target))
+    return knowsAllOccurrences(view, change.from, edits,
+                               codeThatSees(view, declarations.empty() ? Entity{} : declarations.front()));
   return is_new && std::none_of(declarations.begin(), declarations.end(), isProgramInstance) &&
          areAllOccurrences(view, change.from, edits);
 }
@@ -168,10 +181,7 @@ Renaming renameAt(const View& view, FileId file, uint32_t byte, const std::strin
   if (renaming.refusal.empty()) renaming.refusal = refusalOfNewName(new_name);
   if (!renaming.refusal.empty()) return renaming;
   const NameChange change{target.renamable.name, new_name};
-  if (const std::string pou = bodyInCpp(view, target.declarations, change); !pou.empty()) {
-    renaming.refusal = asCode(change.from) + " or " + asCode(change.to) + " is used in the C++ body of " + asCode(pou);
-    return renaming;
-  }
+  if (target.outer) return renameOuter(view, *target.outer, new_name, renames_files, trial);
   std::vector<TextEdit> edits;
   for (const Reference& reference : target.references) edits.push_back({reference.at, new_name});
   if (isObject(target)) {
@@ -179,7 +189,9 @@ Renaming renameAt(const View& view, FileId file, uint32_t byte, const std::strin
     if (renames_files) renaming.moves = movesFor(view, target.references, change);
   }
   const Edits sorted(std::move(edits));
-  if (const std::string conflict = conflictOf(view, target, sorted, change, trial); !conflict.empty()) {
+  std::string conflict = useInCpp(view, target.declarations, change);
+  if (conflict.empty()) conflict = conflictOf(view, target, sorted, change, trial);
+  if (!conflict.empty()) {
     renaming.refusal = asCode(change.from) + " cannot become " + asCode(change.to) + ": " + conflict;
     return renaming;
   }

@@ -32,7 +32,10 @@ uint32_t Edits::moved(FileId file, uint32_t byte) const {
   const auto first = std::partition_point(edits_.begin(), edits_.end(),
                                           [&](const TextEdit& edit) { return edit.range.file.index < file.index; });
   uint32_t result = byte;
-  for (auto edit = first; edit != edits_.end() && edit->range.file == file && edit->range.begin < byte; ++edit)
+  const auto is_before = [&](const FileRange& at) {  // an insertion at the byte is
+    return at.file == file && (at.begin < byte || at.end == byte);
+  };
+  for (auto edit = first; edit != edits_.end() && is_before(edit->range); ++edit)
     result += static_cast<uint32_t>(edit->text.size()) - (edit->range.end - edit->range.begin);
   return result;
 }

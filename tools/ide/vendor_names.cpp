@@ -61,7 +61,7 @@ class TwinCatObject {
 
  private:
   static bool isOuter(std::string_view element) {
-    return element == "POU" || element == "DUT" || element == "Itf" || element == "GVL";
+    return element == "POU" || element == "DUT" || element == "Itf" || element == "GVL" || element == "Task";
   }
   static bool isObject(std::string_view element) {
     return isOuter(element) || element == "Method" || element == "Property" || element == "Action" ||
@@ -104,18 +104,21 @@ std::vector<FileMove> movesFor(const View& view, const std::vector<Reference>& r
   return moves;
 }
 
-// <Compile Include="POUs\Motor.TcPOU"> in a .plcproj.
+// <Compile Include="POUs\Motor.TcPOU"> in a .plcproj, `sources = Globals.st, lib/` in a rung.project.
 void addNamesOfFile(const View& view, const FileMove& move, std::vector<TextEdit>& edits) {
   const auto nameOf = [](const std::string& path) { return path.substr(path.rfind('/') + 1); };
   const std::string from = nameOf(move.from), to = nameOf(move.to);
   for (uint32_t i = 1; i <= view.sources().fileCount(); ++i) {
     const FileId file{i};
-    if (importer::roleOf(importer::kindOfExtension(view.pathOf(file))) != importer::FileRole::ListingProject) continue;
-    const std::string_view text = view.textOf(file);
+    const importer::FileRole role = importer::roleOf(importer::kindOfExtension(view.pathOf(file)));
+    const bool is_rungs = role == importer::FileRole::RungProject;
+    if (!is_rungs && role != importer::FileRole::ListingProject) continue;
+    const std::string_view text = view.textOf(file), before = is_rungs ? "= \t,/" : "\\/\"";
+    const std::string_view after = is_rungs ? " \t,\r\n" : "\"";
     for (size_t at = text.find(from); at != std::string_view::npos; at = text.find(from, at + 1)) {
       const size_t end = at + from.size();
-      const bool is_whole = at > 0 && std::string_view("\\/\"").find(text[at - 1]) != std::string_view::npos &&
-                            end < text.size() && text[end] == '"';
+      const bool is_whole = at > 0 && before.find(text[at - 1]) != std::string_view::npos &&
+                            (end == text.size() || after.find(text[end]) != std::string_view::npos);
       if (is_whole) edits.push_back({{file, static_cast<uint32_t>(at), static_cast<uint32_t>(end)}, to});
     }
   }

@@ -50,7 +50,7 @@ void Inbox::read(int input) {
       continue;
     }
     protocol::JsonResult json = protocol::parseJson(result.text);
-    if (json.error.empty() && json.value["method"].text() == "$/cancelRequest") {
+    if (json.error.empty() && json.value["method"].text() == "$/cancelRequest" && json.value["id"].isNull()) {
       cancel(json.value["params"]["id"]);
     } else if (!isResponse(json.value)) {
       put({std::move(json.value), std::move(json.error)}, result.text.size());

@@ -14,6 +14,8 @@ namespace rung::protocol {
 namespace {
 
 constexpr size_t kUnknownLength = ~size_t{0};
+// A larger number is a header that is wrong, not a message that is too long: the wait for its end would not end.
+constexpr size_t kMostSkipped = size_t{4} << 30;
 
 std::string_view withoutBlanks(std::string_view text) {
   while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
@@ -21,15 +23,18 @@ std::string_view withoutBlanks(std::string_view text) {
   return text;
 }
 
-// Of `Content-Length: 12`; unknown: the line says something else.
+// Of `Content-Length: 12`; unknown: the line says something else. After a broken message its rest may be before it.
 size_t lengthIn(std::string_view line) {
-  const size_t colon = line.find(':');
-  if (colon == std::string_view::npos || !sameIdentifier(line.substr(0, colon), "Content-Length"))
+  constexpr std::string_view kName = "Content-Length";
+  const size_t colon = line.rfind(':');
+  if (colon == std::string_view::npos || colon < kName.size() ||
+      !sameIdentifier(line.substr(colon - kName.size(), kName.size()), kName))
     return kUnknownLength;
   const std::string_view digits = withoutBlanks(line.substr(colon + 1));
   size_t length = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), length);
-  return error == std::errc() && end == digits.data() + digits.size() ? length : kUnknownLength;
+  const bool is_number = error == std::errc() && end == digits.data() + digits.size();
+  return is_number && length <= kMostSkipped ? length : kUnknownLength;
 }
 
 }  // namespace
