@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page of the drawing. In: messages of the extension: a drawing, the element at the cursor, a live picture, values.
-// Out: which element was chosen, which values are wanted. The picture has a document of its own (a shadow root) with
+// Out: which element or instance was chosen, which values are wanted. The picture has a document of its own (a shadow root) with
 // style sheets that are made here, since the page allows none in the text of the picture. Keys: + - 0 zoom.
 'use strict';
 
@@ -94,11 +94,10 @@ function markCursor(id) {
 
 const fullPath = path => path.startsWith('.') ? byId('instance').value + path : path;
 
-function showLive({svg, elements, instances}) {
+function showLive({svg, elements, instances, instance}) {
   showPicture(svg, elements);
-  const chosen = byId('instance').value;
   byId('instance').replaceChildren(...instances.map(path => new Option(path, path)));
-  if (instances.includes(chosen)) byId('instance').value = chosen;
+  byId('instance').value = instance;
   byId('instances').hidden = instances.length < 2;
   byId('state').textContent = '● live';
   byId('head').hidden = false;
@@ -121,7 +120,13 @@ function endLive() {
   byId('head').hidden = true;
 }
 
-byId('instance').addEventListener('change', watch);
+function showInstance({instance}) {
+  if (!shown.live) return;
+  byId('instance').value = instance;
+  watch();
+}
+
+byId('instance').addEventListener('change', () => vscode.postMessage({type: 'choose', instance: byId('instance').value}));
 
 // ---- zoom
 
@@ -163,6 +168,7 @@ const kMessages = {
     markCursor(shown.cursor);
   },
   live: showLive,
+  instance: showInstance,
   cursor: ({id}) => markCursor(id),
   values: ({values}) => {
     Object.assign(shown.values, values);

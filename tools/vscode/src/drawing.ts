@@ -23,6 +23,13 @@ function cursorOf(answer: Answer, position: Place): string {
   return answer.cursor ?? answer.elements.find(element => element.range.start.line === position.line)?.id ?? '';
 }
 
+function requestOf({ document, selection }: vscode.TextEditor): { textDocument: { uri: string }; position: Place } {
+  return {
+    textDocument: { uri: document.uri.toString() },
+    position: { line: selection.active.line, character: selection.active.character },
+  };
+}
+
 const kCursorMs = 30; // after the last move
 const kDrawn = /^(?:iecst|nct|xml)$/;
 
@@ -47,8 +54,8 @@ export class Drawing implements vscode.Disposable {
       vscode.window.onDidChangeTextEditorSelection(event => this.moved(event.textEditor)),
       vscode.window.onDidChangeActiveTextEditor(editor => editor !== undefined && this.moved(editor)),
       vscode.workspace.onDidChangeTextDocument(event => this.edited(event.document)),
-      vscode.workspace.onDidSaveTextDocument(() => void this.readBodies()),
       monitor.onDidChange(() => void this.readBodies()),
+      monitor.onDidChoose(() => this.postInstance()),
       monitor.onValues(values => this.post({ type: 'values', values })),
     );
   }
@@ -66,6 +73,14 @@ export class Drawing implements vscode.Disposable {
     if (editor !== undefined) void this.draw(editor);
   }
 
+  // Shows it where the body at the cursor is drawn.
+  async showIfDrawn(): Promise<void> {
+    const editor = vscode.window.activeTextEditor;
+    if (this.panel !== undefined || editor === undefined) return;
+    const answer = await this.server.ask<Answer>('rung/diagram', requestOf(editor)).catch(() => null);
+    if (answer) this.show();
+  }
+
   private createPanel(): void {
     const panel = vscode.window.createWebviewPanel(
       'rung.drawing',
@@ -80,7 +95,7 @@ export class Drawing implements vscode.Disposable {
     panel.onDidDispose(() => {
       this.panel = undefined;
       this.shown = undefined;
-      void this.monitor.watch([]);
+      void this.monitor.watch(this, []);
     });
   }
 
@@ -124,13 +139,12 @@ export class Drawing implements vscode.Disposable {
   }
 
   private async draw(editor: vscode.TextEditor): Promise<void> {
-    const { document, selection } = editor;
+    const { document } = editor;
     if (document.uri.scheme !== 'file' || !kDrawn.test(document.languageId)) return;
     this.request?.cancel();
     const request = new vscode.CancellationTokenSource();
     this.request = request;
-    const position = { line: selection.active.line, character: selection.active.character };
-    const params = { textDocument: { uri: document.uri.toString() }, position };
+    const params = requestOf(editor);
     let answer: Answer | null | undefined;
     try {
       answer = await this.server.ask<Answer>('rung/diagram', params, request.token);
@@ -147,7 +161,7 @@ export class Drawing implements vscode.Disposable {
     this.shown = answer;
     this.panel.title = answer.title;
     if (!isSame) this.postDrawing();
-    this.cursor = cursorOf(answer, position);
+    this.cursor = cursorOf(answer, params.position);
     this.post({ type: 'cursor', id: this.cursor });
     if (isOther) await this.showLive();
   }
@@ -173,12 +187,16 @@ export class Drawing implements vscode.Disposable {
     this.live = picture.startsWith('<') ? body : undefined;
     if (this.live !== undefined) {
       const elements = this.shown?.elements.map(element => element.id) ?? [];
-      this.post({ type: 'live', svg: picture, elements, instances: this.live.instances });
+      this.post({ type: 'live', svg: picture, elements, instances: this.live.instances, instance: this.monitor.instanceOf(this.live) });
       this.post({ type: 'cursor', id: this.cursor });
     } else if (wasLive) {
-      await this.monitor.watch([]);
+      await this.monitor.watch(this, []);
       this.postDrawing();
     }
+  }
+
+  private postInstance(): void {
+    if (this.live !== undefined) this.post({ type: 'instance', instance: this.monitor.instanceOf(this.live) });
   }
 
   // ---- to and from the page of the panel
@@ -187,14 +205,15 @@ export class Drawing implements vscode.Disposable {
     if (this.isReady) void this.panel?.webview.postMessage(message);
   }
 
-  private async receive(message: { type: string; id?: string; paths?: string[] }): Promise<void> {
+  private async receive(message: { type: string; id?: string; paths?: string[]; instance?: string }): Promise<void> {
     if (message.type === 'ready') {
       this.isReady = true;
       this.postDrawing();
       this.post({ type: 'cursor', id: this.cursor });
       await this.readBodies();
     }
-    if (message.type === 'watch') await this.monitor.watch(message.paths ?? []);
+    if (message.type === 'watch') await this.monitor.watch(this, message.paths ?? []);
+    if (message.type === 'choose' && this.live !== undefined) this.monitor.choose(this.live.block, message.instance ?? '');
     if (message.type === 'reveal') await this.reveal(message.id ?? '');
   }
 
