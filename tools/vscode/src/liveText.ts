@@ -4,6 +4,7 @@
 import * as path from 'node:path';
 import * as vscode from 'vscode';
 import { Body, Line, Monitor, Values } from './monitor';
+import { unescape } from './reports';
 
 interface ShownBody {
   body: Body;
@@ -162,7 +163,7 @@ export class LiveText implements vscode.Disposable, vscode.CodeLensProvider {
     for (const { body, lines } of this.documents.get(document.uri.toString()) ?? []) {
       const instance = this.monitor.instanceOf(body);
       for (const { line, text, paths } of lines) {
-        if (!isVisible(line) || line >= document.lineCount || document.lineAt(line).text.trimEnd() !== text.trimEnd()) continue;
+        if (!isVisible(line) || line >= document.lineCount || !isText(document, line, text)) continue;
         for (const one of paths) {
           const isInside = one.startsWith('.');
           if (!isInside || instance !== undefined) found.push({ line, name: isInside ? one.slice(1) : one, path: isInside ? instance + one : one });
@@ -195,6 +196,12 @@ export class LiveText implements vscode.Disposable, vscode.CodeLensProvider {
       })),
     );
   }
+}
+
+// In XML there may be tags around the text.
+function isText(document: vscode.TextDocument, line: number, text: string): boolean {
+  const written = document.lineAt(line).text;
+  return document.languageId === 'xml' ? unescape(written).includes(text.trim()) : written.trim() === text.trim();
 }
 
 const isWanted = () => vscode.workspace.getConfiguration('rung').get<boolean>('monitor.valuesInText', true);

@@ -349,6 +349,16 @@ async function editsTwinCat() {
   const styleOf = text => page.locator('.view-line span span', { hasText: text }).first().getAttribute('class');
   await until('colours in the CDATA', async () => (await styleOf('END_VAR')) !== (await styleOf('count')));
   await picture('twincat.png');
+  const text = onDisk('twincat/Motor.TcPOU');
+  const line = text.split('\n').findIndex(one => one.includes('zero')) + 1;
+  await goTo(line, text.split('\n')[line - 1].indexOf('zero') + 1);
+  await page.keyboard.press('Control+Shift+ArrowRight');
+  await page.keyboard.type('1');
+  await until('no error', async () => (await errorCount()) === 0);
+  await command('Rung: Run the Project and Show It Live');
+  await until('a value in the CDATA', async () => /^count = [1-9]/.test(await valuesAfter('count := count + 1;')));
+  await until('a value beside a tag', async () => /^start = TRUE$/.test(await valuesAfter('<ST><![CDATA[IF start THEN')));
+  await command('Rung: End the Running Program');
 }
 
 async function inTrustedFolder() {
