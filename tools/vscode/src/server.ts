@@ -77,6 +77,7 @@ export class Server implements vscode.Disposable {
   // A request of Rung's own; undefined: no server, or it does not know this one.
   async ask<Answer>(method: string, params: object, token?: vscode.CancellationToken): Promise<Answer | null | undefined> {
     if (this.client === undefined || this.client.state !== State.Running) return undefined;
+    if (token === undefined) return this.client.sendRequest<Answer | null>(method, params);
     return this.client.sendRequest<Answer | null>(method, params, token);
   }
 

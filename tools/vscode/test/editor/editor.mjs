@@ -156,6 +156,7 @@ async function redraws() {
 }
 
 async function isLive() {
+  await command('View: Close Editors in Other Groups');
   await open('motor_starter.st', 15, 1);
   await command('Rung: Run the Project and Show It Live');
   const frame = await drawingFrame();
