@@ -115,6 +115,7 @@ export class LiveText implements vscode.Disposable, vscode.CodeLensProvider {
       shown.push({ body, first: lines[0]!.line, lines });
     }
     this.documents.set(key, shown);
+    this.lensesChanged.fire(); // the editor may have given up before the lines were there
     return shown;
   }
 

@@ -76,13 +76,24 @@ export async function startEditor(name, { isTrusted = true, files = {} } = {}) {
   };
 }
 
+// The list closes when something else takes the focus in this moment: it is opened again.
 export async function command(title) {
-  await page.keyboard.press('F1');
-  await page.waitForSelector('.quick-input-widget:visible input', { timeout: kMs });
-  await page.keyboard.type(title);
   const row = page.locator(`.quick-input-list .monaco-list-row[aria-label^="${title}"]`).first();
-  await row.waitFor({ timeout: kMs });
-  await row.click();
+  await until(`${title} in the list of commands`, async () => {
+    await page.keyboard.press('F1');
+    await page.waitForSelector('.quick-input-widget:visible input', { timeout: kMs });
+    await page.keyboard.type(title);
+    if (await row.click({ timeout: kMs / 10 }).then(() => true, () => false)) return true;
+    await page.keyboard.press('Escape');
+    return false;
+  });
+}
+
+// Types into the box with this prompt.
+export async function answer(prompt, text) {
+  await page.locator('.quick-input-widget:visible', { hasText: prompt }).first().waitFor({ timeout: kMs });
+  await page.keyboard.type(text);
+  await page.keyboard.press('Enter');
 }
 
 // A file that was made a moment ago is not in the list at once: the list is opened again.

@@ -5,7 +5,7 @@
 import { spawn } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
-import { command, cursorAt, drawingFrame, errorCount, failed, goTo, inDrawing, kMs, onDisk, open, page, picture, project, rung, startEditor, step, until, valuesAfter } from './driver.mjs';
+import { answer, command, cursorAt, drawingFrame, errorCount, failed, goTo, inDrawing, kMs, onDisk, open, page, picture, project, rung, startEditor, step, until, valuesAfter } from './driver.mjs';
 
 
 async function serverRuns() {
@@ -219,13 +219,13 @@ async function endsProgram() {
   await until('no value', async () => (await valuesAfter('level := level + 0.1;')) === '');
 }
 
+const kPrompt = 'The URL that the program printed at its start';
+
 // A program that somebody else started.
 async function connectsByUrl() {
   await open('pump.st', 17, 1);
   await command('Rung: Connect to the Monitor of a Running Program');
-  await page.waitForSelector('.quick-input-widget:visible input', { timeout: kMs });
-  await page.keyboard.type('http://127.0.0.1:1/?token=no');
-  await page.keyboard.press('Enter');
+  await answer(kPrompt, 'http://127.0.0.1:1/?token=no');
   await page.locator('.notification-list-item', { hasText: 'no monitor answers there' }).first().waitFor({ timeout: kMs });
   await command('Notifications: Clear All Notifications');
   const program = spawn(rung, ['run', project, '--monitor', '0'], { stdio: ['ignore', 'ignore', 'pipe'] });
@@ -239,18 +239,14 @@ async function connectsByUrl() {
       });
     });
     await command('Rung: Connect to the Monitor of a Running Program');
-    await page.waitForSelector('.quick-input-widget:visible input', { timeout: kMs });
-    await page.keyboard.type(url);
-    await page.keyboard.press('Enter');
+    await answer(kPrompt, url);
     await until('a value', async () => (await levelOf('level := level + 0.1;')) >= 0.1);
     await page.locator('.statusbar-item', { hasText: /running, cycle \d+/ }).first().waitFor({ timeout: kMs });
     await command('Rung: Disconnect from the Running Program');
     await until('no value', async () => (await valuesAfter('level := level + 0.1;')) === '');
     if (program.exitCode !== null) throw new Error('the program has ended');
     await command('Rung: Connect to the Monitor of a Running Program');
-    await page.waitForSelector('.quick-input-widget:visible input', { timeout: kMs });
-    await page.keyboard.type(url);
-    await page.keyboard.press('Enter');
+    await answer(kPrompt, url);
     await until('a value again', async () => (await levelOf('level := level + 0.1;')) >= 0.1);
   } finally {
     program.kill('SIGINT');
