@@ -3,6 +3,7 @@
 // element goes to its text. While a program is watched that has this body, its picture of it with live values.
 import * as crypto from 'node:crypto';
 import * as vscode from 'vscode';
+import { currentStop, Stop } from './debug';
 import { Body, Monitor } from './monitor';
 import { Server } from './server';
 
@@ -23,11 +24,10 @@ function cursorOf(answer: Answer, position: Place): string {
   return answer.cursor ?? answer.elements.find(element => element.range.start.line === position.line)?.id ?? '';
 }
 
+const requestAt = (uri: vscode.Uri, position: Place) => ({ textDocument: { uri: uri.toString() }, position });
+
 function requestOf({ document, selection }: vscode.TextEditor): { textDocument: { uri: string }; position: Place } {
-  return {
-    textDocument: { uri: document.uri.toString() },
-    position: { line: selection.active.line, character: selection.active.character },
-  };
+  return requestAt(document.uri, { line: selection.active.line, character: selection.active.character });
 }
 
 const kCursorMs = 30; // after the last move
@@ -43,6 +43,8 @@ export class Drawing implements vscode.Disposable {
   private timer: NodeJS.Timeout | undefined;
   private live: Body | undefined; // the body whose values are shown
   private bodies: Body[] = []; // of the watched program
+  private stop: Stop | undefined; // where the debugger is
+  private readonly openedFor = new Set<string>(); // debug sessions
   private readonly disposables: vscode.Disposable[] = [];
 
   constructor(
@@ -53,6 +55,8 @@ export class Drawing implements vscode.Disposable {
     this.disposables.push(
       vscode.window.onDidChangeTextEditorSelection(event => this.moved(event.textEditor)),
       vscode.window.onDidChangeActiveTextEditor(editor => editor !== undefined && this.moved(editor)),
+      vscode.debug.onDidChangeActiveStackItem(() => void this.stopChanged()),
+      vscode.debug.onDidTerminateDebugSession(session => this.openedFor.delete(session.id)),
       vscode.workspace.onDidChangeTextDocument(event => this.edited(event.document)),
       monitor.onDidChange(() => void this.readBodies()),
       monitor.onDidChoose(() => this.postInstance()),
@@ -138,13 +142,17 @@ export class Drawing implements vscode.Disposable {
     this.timer = setTimeout(() => void this.draw(editor), kCursorMs);
   }
 
-  private async draw(editor: vscode.TextEditor): Promise<void> {
-    const { document } = editor;
+  private draw(editor: vscode.TextEditor): Promise<void> {
+    const { line, character } = editor.selection.active;
+    return this.drawAt(editor.document, { line, character });
+  }
+
+  private async drawAt(document: vscode.TextDocument, position: Place): Promise<void> {
     if (document.uri.scheme !== 'file' || !kDrawn.test(document.languageId)) return;
     this.request?.cancel();
     const request = new vscode.CancellationTokenSource();
     this.request = request;
-    const params = requestOf(editor);
+    const params = requestAt(document.uri, position);
     let answer: Answer | null | undefined;
     try {
       answer = await this.server.ask<Answer>('rung/diagram', params, request.token);
@@ -163,12 +171,44 @@ export class Drawing implements vscode.Disposable {
     if (!isSame) this.postDrawing();
     this.cursor = cursorOf(answer, params.position);
     this.post({ type: 'cursor', id: this.cursor });
+    await this.postStop();
     if (isOther) await this.showLive();
   }
 
   private postDrawing(): void {
     if (this.shown === undefined || this.live !== undefined) return;
     this.post({ type: 'drawing', svg: this.shown.svg, elements: this.shown.elements.map(element => element.id) });
+  }
+
+  // ---- from the debugger
+
+  // Opened once in a session, at the first stop in a body that is drawn.
+  private async stopChanged(): Promise<void> {
+    const session = vscode.debug.activeDebugSession?.id ?? '';
+    this.stop = await currentStop();
+    const stop = this.stop;
+    if (stop === undefined) return this.postStop();
+    const document = await vscode.workspace.openTextDocument(stop.uri); // the server answers for documents that are open
+    const position = { line: stop.line, character: stop.column };
+    const answer = await this.server.ask<Answer>('rung/diagram', requestAt(stop.uri, position)).catch(() => null);
+    if (!answer || this.stop !== stop) return this.postStop();
+    if (this.panel === undefined && !this.openedFor.has(session)) {
+      this.openedFor.add(session);
+      this.createPanel();
+    }
+    if (this.panel !== undefined) await this.drawAt(document, position);
+  }
+
+  // The element where the program is stopped, in the drawing that is shown.
+  private async postStop(): Promise<void> {
+    const stop = this.stop;
+    let id = '';
+    if (stop !== undefined && this.document?.toString() === stop.uri.toString() && this.shown !== undefined) {
+      const position = { line: stop.line, character: stop.column };
+      const answer = await this.server.ask<Answer>('rung/diagram', requestAt(stop.uri, position)).catch(() => null);
+      if (answer && answer.pou === this.shown.pou) id = cursorOf(answer, position);
+    }
+    if (this.stop === stop) this.post({ type: 'stop', id });
   }
 
   // ---- from the watched program
@@ -189,6 +229,7 @@ export class Drawing implements vscode.Disposable {
       const elements = this.shown?.elements.map(element => element.id) ?? [];
       this.post({ type: 'live', svg: picture, elements, instances: this.live.instances, instance: this.monitor.instanceOf(this.live) });
       this.post({ type: 'cursor', id: this.cursor });
+      await this.postStop();
     } else if (wasLive) {
       await this.monitor.watch(this, []);
       this.postDrawing();
@@ -210,6 +251,7 @@ export class Drawing implements vscode.Disposable {
       this.isReady = true;
       this.postDrawing();
       this.post({ type: 'cursor', id: this.cursor });
+      await this.postStop();
       await this.readBodies();
     }
     if (message.type === 'watch') await this.monitor.watch(this, message.paths ?? []);

@@ -2,6 +2,7 @@
 // The extension: starts the language server and connects the commands of package.json to the parts that carry them out.
 import * as vscode from 'vscode';
 import { Location, Position } from 'vscode-languageclient/node';
+import { askUrl, debugCommands, registerDebugger } from './debug';
 import { Drawing } from './drawing';
 import { LiveText } from './liveText';
 import { Monitor } from './monitor';
@@ -33,11 +34,7 @@ async function runMonitored(monitor: Monitor, drawing: Drawing): Promise<void> {
 }
 
 async function connectMonitor(monitor: Monitor, drawing: Drawing): Promise<void> {
-  const url = await vscode.window.showInputBox({
-    prompt: 'The URL that the program printed at its start',
-    placeHolder: 'http://127.0.0.1:8080/?token=…',
-    ignoreFocusOut: true,
-  });
+  const url = await askUrl();
   if (url === undefined) return;
   try {
     await monitor.connect(url.trim());
@@ -99,6 +96,8 @@ export async function activate(context: vscode.ExtensionContext): Promise<void> 
     'rung.restartServer': () => server.restart(),
     'rung.showLog': () => server.showLog(),
     'rung.menu': showMenu,
+    'rung.debugTest': (uri: string, name: string) => tests.debugNamed(vscode.Uri.parse(uri), name),
+    ...debugCommands,
   };
   for (const [name, act] of Object.entries(commands))
     context.subscriptions.push(vscode.commands.registerCommand(name, act));
@@ -108,6 +107,7 @@ export async function activate(context: vscode.ExtensionContext): Promise<void> 
     monitor,
     live,
     drawing,
+    registerDebugger(),
     vscode.tasks.registerTaskProvider('rung', taskProvider),
     vscode.workspace.onDidChangeConfiguration(event => {
       const names = ['rung.path', 'rung.arguments', 'rung.server.log'];

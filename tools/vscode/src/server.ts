@@ -14,7 +14,7 @@ import {
 import { commonArguments, program, run } from './rung';
 
 // Commands that the server may name in code lenses, see docs/editor.md.
-const kLensCommands = ['rung.runTest', 'rung.showReferences'];
+const kLensCommands = ['rung.debugTest', 'rung.runTest', 'rung.showReferences'];
 
 const kXmlFiles = '**/*.{TcPOU,TcDUT,TcGVL,TcIO,TcTTO,TcTLEO,plcproj,xml,XML,cfc}';
 const kSelector = [

@@ -134,6 +134,9 @@ export async function until(what, test, ms = kMs) {
 }
 
 export const onDisk = file => fs.readFileSync(path.join(project, file), 'utf8');
+// The number of the first line of a file with this text.
+export const lineOf = (file, text) => onDisk(file).split('\n').findIndex(line => line.includes(text)) + 1;
+
 export const errorCount = () => page.locator('.squiggly-error').count();
 
 // What is shown after the text of each line, by the text of the line.

@@ -5,6 +5,7 @@
 import { spawn } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
+import * as debug from './debug.mjs';
 import { answer, command, cursorAt, drawingFrame, errorCount, failed, goTo, inDrawing, kMs, onDisk, open, page, picture, project, rung, startEditor, step, until, valuesAfter } from './driver.mjs';
 
 
@@ -385,6 +386,13 @@ async function inTrustedFolder() {
     await step('values move with their text', valuesMoveWithText);
     await step('values end with the program', endsProgram);
     await step('a program that runs elsewhere', connectsByUrl);
+    await step('the debugger stops in ST', debug.stopsInText);
+    await step('the debugger shows values in the text', debug.showsInlineValues);
+    await step('the debugger steps forward and back', debug.stepsBothWays);
+    await step('the debugger evaluates', debug.evaluates);
+    await step('the debugger stops on a change', debug.breaksOnChange);
+    await step('the debugger stops in a network', debug.stopsInNetwork);
+    await step('the debugger runs a test', debug.debugsTest);
     await step('a file of TwinCAT', editsTwinCat);
     await step('the walkthrough', walksThrough);
   } finally {
