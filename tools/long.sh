@@ -28,7 +28,8 @@
 # tsan          the bundled host with tasks as threads under ThreadSanitizer
 # service       the systemd unit of samples/service under systemd in a namespace (root; needs the package systemd)
 # page          1 000 values at 10 updates a second in headless Chromium for a minute: under 20 % of a core (SECONDS_EACH)
-# vscode        the extension for Visual Studio Code: its grammars, and used with keys in a real editor (needs npm)
+# vscode        the extension for Visual Studio Code: its grammars, and used with keys in a real editor (needs npm, chromium, libkrb5-dev)
+# kate          Kate with the settings of its page, used with keys (needs kate, xvfb, xdotool, openbox)
 # lateness      starts of a task of 1 ms beside a bare loop, five minutes of each (SECONDS_EACH)
 # asan          the whole suite with ASan and UBSan (needs clang++, which builds it in a third of the time)
 # debug         the whole suite without optimization, with the invariants of the compiler checked
@@ -204,6 +205,14 @@ vscode() {
   tools/vscode/test/editor/editor.sh
 }
 
+kate() {
+  needs rung
+  local folder
+  folder=$(mktemp -d)
+  tests/lsp/kate.py "$folder" "$bin/rung" || { echo "see $folder"; return 1; }
+  rm -r "$folder"
+}
+
 lateness() {
   needs rung
   tests/bench/lateness.sh "${SECONDS_EACH:-60}"
@@ -257,7 +266,7 @@ compilers() {
 }
 
 all=(differential networks mutants frames snapshots rename typing editor_fuzz editor debugger changes forces monitor page modifiers bodies mutation profiles cams kills tsan
-     service vscode lateness asan debug tidy conversions conformance packages compilers)
+     service vscode kate lateness asan debug tidy conversions conformance packages compilers)
 parts=("$@")
 [ ${#parts[@]} -gt 0 ] || parts=("${all[@]}")
 for part in "${parts[@]}"; do

@@ -25,6 +25,7 @@ Answer codeLenses(Session& session, const Json& params) {
   if (place->view == nullptr) return Json();
   Translator translator(*place->view, session.encoding);
   Json::Array list;
+  const bool has_debugger = session.client.commands.count("rung.debugTest") != 0;
   for (const ide::CodeLens& lens : ide::lensesOf(*place->view, place->file)) {
     Json json{{"range", translator.range(lens.at)}};
     switch (lens.kind) {
@@ -35,6 +36,10 @@ Answer codeLenses(Session& session, const Json& params) {
       case ide::LensKind::Task: json.set("command", command(session, lens.text, "", {})); break;
     }
     list.push_back(std::move(json));
+    if (lens.kind != ide::LensKind::Test || !has_debugger) continue;
+    Json debug{{"range", translator.range(lens.at)}};
+    debug.set("command", command(session, "debug", "rung.debugTest", {params["textDocument"]["uri"], lens.text}));
+    list.push_back(std::move(debug));
   }
   return Json(std::move(list));
 }

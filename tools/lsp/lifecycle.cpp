@@ -2,6 +2,7 @@
 #include "tools/lsp/lifecycle.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "tools/driver/installation.h"
 #include "tools/lsp/semantic_tokens.h"
@@ -35,14 +36,21 @@ void addFolder(Session& session, const Json& uri) {
   if (const std::string path = pathOfUri(uri.text()); !path.empty()) session.projects.addFolder(path);
 }
 
+// The user's home, or a folder around it.
+bool holdsHome(const std::string& folder) {
+  const char* home = std::getenv("HOME");
+  return folder == "/" || (home != nullptr && (std::string(home) + "/").starts_with(folder + "/"));
+}
+
+// Kate names the home as the root when no folder is open; that is not a project with all that lies below it.
 void addFolders(Session& session, const Json& params) {
   const Json& folders = params["workspaceFolders"];
   for (const Json& folder : folders.items()) addFolder(session, folder["uri"]);
   if (!folders.items().empty()) return;
-  if (params["rootUri"].isText())
-    addFolder(session, params["rootUri"]);
-  else if (params["rootPath"].isText() && params["rootPath"].text().starts_with('/'))
-    session.projects.addFolder(std::string(params["rootPath"].text()));
+  std::string root(params["rootPath"].isText() ? params["rootPath"].text() : std::string_view());
+  if (params["rootUri"].isText()) root = pathOfUri(params["rootUri"].text());
+  while (root.size() > 1 && root.ends_with('/')) root.pop_back();
+  if (root.starts_with('/') && !holdsHome(root)) session.projects.addFolder(root);
 }
 
 Json serverCapabilities(const Session& session) {

@@ -82,7 +82,7 @@ def check_files():
     for path in media:
         if not (EXTENSION / path).is_file():
             print(f"{path} is missing")
-    code = (EXTENSION / "src/extension.ts").read_text()
+    code = "".join(path.read_text() for path in EXTENSION.glob("src/*.ts"))
     for command in package["contributes"]["commands"]:
         if f"'{command['command']}'" not in code:
             print(f"no code has the command {command['command']}")

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page of the drawing. In: messages of the extension: a drawing, the element at the cursor, a live picture, values.
-// Out: which element was chosen, which values are wanted. The picture has a document of its own (a shadow root) with
+// The page of the drawing. In: messages of the extension: a drawing, the elements at the cursor and of the debugger, a live picture, values.
+// Out: which element or instance was chosen, which values are wanted. The picture has a document of its own (a shadow root) with
 // style sheets that are made here, since the page allows none in the text of the picture. Keys: + - 0 zoom.
 'use strict';
 
@@ -14,6 +14,7 @@ const kMarkStyle = `
   [data-chosen] { cursor: pointer; }
   [data-chosen]:focus-visible { outline: 2px solid var(--vscode-focusBorder); }
   rect.area { fill: transparent; stroke: none; }
+  rect.area.stop { fill: var(--vscode-editor-stackFrameHighlightBackground, #ffff6673); stroke: var(--vscode-debugIcon-breakpointCurrentStackframeForeground, #be8700); stroke-width: 2; }
   rect.area.cursor { fill: var(--vscode-editor-selectionBackground); fill-opacity: .45; stroke: var(--vscode-focusBorder); stroke-width: 1.5; }
 `;
 
@@ -21,6 +22,7 @@ const shown = {
   style: '',         // the style of the picture, as it is in it
   elements: [],      // the ids of what comes from the text
   cursor: '',        // the id of the element at the cursor
+  stop: '',          // and of the one where the debugger is
   live: null,        // a LivePicture
   values: {},        // by whole path
   zoom: 0,           // 0: as wide as the panel, but not larger than drawn
@@ -81,24 +83,26 @@ function boxOf(shape, name, margin) {
   return rect;
 }
 
-function markCursor(id) {
-  for (const old of root.querySelectorAll('rect.cursor')) old.remove();
-  shown.cursor = id;
+function mark(kind, id, margin) {
+  for (const old of root.querySelectorAll(`rect.${kind}`)) old.remove();
+  shown[kind] = id;
   const shape = elementOf(id);
   if (!shape) return;
-  shape.prepend(boxOf(shape, 'area cursor', 3));
+  shape.prepend(boxOf(shape, `area ${kind}`, margin));
   shape.scrollIntoView({block: 'nearest', inline: 'nearest'});
 }
+
+const markCursor = id => mark('cursor', id, 3);
+const markStop = id => mark('stop', id, 6);
 
 // ---- live
 
 const fullPath = path => path.startsWith('.') ? byId('instance').value + path : path;
 
-function showLive({svg, elements, instances}) {
+function showLive({svg, elements, instances, instance}) {
   showPicture(svg, elements);
-  const chosen = byId('instance').value;
   byId('instance').replaceChildren(...instances.map(path => new Option(path, path)));
-  if (instances.includes(chosen)) byId('instance').value = chosen;
+  byId('instance').value = instance;
   byId('instances').hidden = instances.length < 2;
   byId('state').textContent = '● live';
   byId('head').hidden = false;
@@ -121,7 +125,13 @@ function endLive() {
   byId('head').hidden = true;
 }
 
-byId('instance').addEventListener('change', watch);
+function showInstance({instance}) {
+  if (!shown.live) return;
+  byId('instance').value = instance;
+  watch();
+}
+
+byId('instance').addEventListener('change', () => vscode.postMessage({type: 'choose', instance: byId('instance').value}));
 
 // ---- zoom
 
@@ -161,9 +171,12 @@ const kMessages = {
     showPicture(svg, elements);
     adoptStyles();
     markCursor(shown.cursor);
+    markStop(shown.stop);
   },
   live: showLive,
+  instance: showInstance,
   cursor: ({id}) => markCursor(id),
+  stop: ({id}) => markStop(id),
   values: ({values}) => {
     Object.assign(shown.values, values);
     if (shown.live) shown.live.paint();

@@ -3,6 +3,7 @@
 // element goes to its text. While a program is watched that has this body, its picture of it with live values.
 import * as crypto from 'node:crypto';
 import * as vscode from 'vscode';
+import { currentStop, Stop } from './debug';
 import { Body, Monitor } from './monitor';
 import { Server } from './server';
 
@@ -23,6 +24,12 @@ function cursorOf(answer: Answer, position: Place): string {
   return answer.cursor ?? answer.elements.find(element => element.range.start.line === position.line)?.id ?? '';
 }
 
+const requestAt = (uri: vscode.Uri, position: Place) => ({ textDocument: { uri: uri.toString() }, position });
+
+function requestOf({ document, selection }: vscode.TextEditor): { textDocument: { uri: string }; position: Place } {
+  return requestAt(document.uri, { line: selection.active.line, character: selection.active.character });
+}
+
 const kCursorMs = 30; // after the last move
 const kDrawn = /^(?:iecst|nct|xml)$/;
 
@@ -36,6 +43,8 @@ export class Drawing implements vscode.Disposable {
   private timer: NodeJS.Timeout | undefined;
   private live: Body | undefined; // the body whose values are shown
   private bodies: Body[] = []; // of the watched program
+  private stop: Stop | undefined; // where the debugger is
+  private readonly openedFor = new Set<string>(); // debug sessions
   private readonly disposables: vscode.Disposable[] = [];
 
   constructor(
@@ -46,9 +55,11 @@ export class Drawing implements vscode.Disposable {
     this.disposables.push(
       vscode.window.onDidChangeTextEditorSelection(event => this.moved(event.textEditor)),
       vscode.window.onDidChangeActiveTextEditor(editor => editor !== undefined && this.moved(editor)),
+      vscode.debug.onDidChangeActiveStackItem(() => void this.stopChanged()),
+      vscode.debug.onDidTerminateDebugSession(session => this.openedFor.delete(session.id)),
       vscode.workspace.onDidChangeTextDocument(event => this.edited(event.document)),
-      vscode.workspace.onDidSaveTextDocument(() => void this.readBodies()),
       monitor.onDidChange(() => void this.readBodies()),
+      monitor.onDidChoose(() => this.postInstance()),
       monitor.onValues(values => this.post({ type: 'values', values })),
     );
   }
@@ -66,6 +77,14 @@ export class Drawing implements vscode.Disposable {
     if (editor !== undefined) void this.draw(editor);
   }
 
+  // Shows it where the body at the cursor is drawn.
+  async showIfDrawn(): Promise<void> {
+    const editor = vscode.window.activeTextEditor;
+    if (this.panel !== undefined || editor === undefined) return;
+    const answer = await this.server.ask<Answer>('rung/diagram', requestOf(editor)).catch(() => null);
+    if (answer) this.show();
+  }
+
   private createPanel(): void {
     const panel = vscode.window.createWebviewPanel(
       'rung.drawing',
@@ -80,7 +99,7 @@ export class Drawing implements vscode.Disposable {
     panel.onDidDispose(() => {
       this.panel = undefined;
       this.shown = undefined;
-      void this.monitor.watch([]);
+      void this.monitor.watch(this, []);
     });
   }
 
@@ -123,14 +142,17 @@ export class Drawing implements vscode.Disposable {
     this.timer = setTimeout(() => void this.draw(editor), kCursorMs);
   }
 
-  private async draw(editor: vscode.TextEditor): Promise<void> {
-    const { document, selection } = editor;
+  private draw(editor: vscode.TextEditor): Promise<void> {
+    const { line, character } = editor.selection.active;
+    return this.drawAt(editor.document, { line, character });
+  }
+
+  private async drawAt(document: vscode.TextDocument, position: Place): Promise<void> {
     if (document.uri.scheme !== 'file' || !kDrawn.test(document.languageId)) return;
     this.request?.cancel();
     const request = new vscode.CancellationTokenSource();
     this.request = request;
-    const position = { line: selection.active.line, character: selection.active.character };
-    const params = { textDocument: { uri: document.uri.toString() }, position };
+    const params = requestAt(document.uri, position);
     let answer: Answer | null | undefined;
     try {
       answer = await this.server.ask<Answer>('rung/diagram', params, request.token);
@@ -147,14 +169,46 @@ export class Drawing implements vscode.Disposable {
     this.shown = answer;
     this.panel.title = answer.title;
     if (!isSame) this.postDrawing();
-    this.cursor = cursorOf(answer, position);
+    this.cursor = cursorOf(answer, params.position);
     this.post({ type: 'cursor', id: this.cursor });
+    await this.postStop();
     if (isOther) await this.showLive();
   }
 
   private postDrawing(): void {
     if (this.shown === undefined || this.live !== undefined) return;
     this.post({ type: 'drawing', svg: this.shown.svg, elements: this.shown.elements.map(element => element.id) });
+  }
+
+  // ---- from the debugger
+
+  // Opened once in a session, at the first stop in a body that is drawn.
+  private async stopChanged(): Promise<void> {
+    const session = vscode.debug.activeDebugSession?.id ?? '';
+    this.stop = await currentStop();
+    const stop = this.stop;
+    if (stop === undefined) return this.postStop();
+    const document = await vscode.workspace.openTextDocument(stop.uri); // the server answers for documents that are open
+    const position = { line: stop.line, character: stop.column };
+    const answer = await this.server.ask<Answer>('rung/diagram', requestAt(stop.uri, position)).catch(() => null);
+    if (!answer || this.stop !== stop) return this.postStop();
+    if (this.panel === undefined && !this.openedFor.has(session)) {
+      this.openedFor.add(session);
+      this.createPanel();
+    }
+    if (this.panel !== undefined) await this.drawAt(document, position);
+  }
+
+  // The element where the program is stopped, in the drawing that is shown.
+  private async postStop(): Promise<void> {
+    const stop = this.stop;
+    let id = '';
+    if (stop !== undefined && this.document?.toString() === stop.uri.toString() && this.shown !== undefined) {
+      const position = { line: stop.line, character: stop.column };
+      const answer = await this.server.ask<Answer>('rung/diagram', requestAt(stop.uri, position)).catch(() => null);
+      if (answer && answer.pou === this.shown.pou) id = cursorOf(answer, position);
+    }
+    if (this.stop === stop) this.post({ type: 'stop', id });
   }
 
   // ---- from the watched program
@@ -173,12 +227,17 @@ export class Drawing implements vscode.Disposable {
     this.live = picture.startsWith('<') ? body : undefined;
     if (this.live !== undefined) {
       const elements = this.shown?.elements.map(element => element.id) ?? [];
-      this.post({ type: 'live', svg: picture, elements, instances: this.live.instances });
+      this.post({ type: 'live', svg: picture, elements, instances: this.live.instances, instance: this.monitor.instanceOf(this.live) });
       this.post({ type: 'cursor', id: this.cursor });
+      await this.postStop();
     } else if (wasLive) {
-      await this.monitor.watch([]);
+      await this.monitor.watch(this, []);
       this.postDrawing();
     }
+  }
+
+  private postInstance(): void {
+    if (this.live !== undefined) this.post({ type: 'instance', instance: this.monitor.instanceOf(this.live) });
   }
 
   // ---- to and from the page of the panel
@@ -187,14 +246,16 @@ export class Drawing implements vscode.Disposable {
     if (this.isReady) void this.panel?.webview.postMessage(message);
   }
 
-  private async receive(message: { type: string; id?: string; paths?: string[] }): Promise<void> {
+  private async receive(message: { type: string; id?: string; paths?: string[]; instance?: string }): Promise<void> {
     if (message.type === 'ready') {
       this.isReady = true;
       this.postDrawing();
       this.post({ type: 'cursor', id: this.cursor });
+      await this.postStop();
       await this.readBodies();
     }
-    if (message.type === 'watch') await this.monitor.watch(message.paths ?? []);
+    if (message.type === 'watch') await this.monitor.watch(this, message.paths ?? []);
+    if (message.type === 'choose' && this.live !== undefined) this.monitor.choose(this.live.block, message.instance ?? '');
     if (message.type === 'reveal') await this.reveal(message.id ?? '');
   }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The monitor of a running program over HTTP (docs/monitor.md): the run that this extension starts, or the one whose
-// URL the user gives. Out: bodies as pictures, and values as they arrive.
+// URL the user gives. Out: bodies as pictures or lines, and values as they arrive.
 import * as child_process from 'node:child_process';
 import * as vscode from 'vscode';
 import { Project } from './projects';
@@ -13,10 +13,25 @@ export interface Body {
   instances: string[];
 }
 
+// A line of a body in text, and what it names; a path that begins with a point is below the instance.
+export interface Line {
+  line: number;
+  text: string;
+  paths: string[];
+}
+
 export type Values = Record<string, string | null>;
+
+interface Info {
+  state: string;
+  cycle: number;
+  changes: number;
+  rolled_back: boolean;
+}
 
 const kFirstSeconds = 30; // until the program has said where its monitor is
 const kGraceMs = 2000; // after `quit`
+const kInfoMs = 500; // between two questions whether it runs and which version
 
 // A terminal that shows a process; Ctrl-C ends it.
 class RunTerminal implements vscode.Pseudoterminal {
@@ -48,14 +63,31 @@ export class Monitor implements vscode.Disposable {
   private url: URL | undefined;
   private child: child_process.ChildProcess | undefined;
   private stream: AbortController | undefined;
+  private timer: NodeJS.Timeout | undefined;
+  private info: Info | undefined;
+  private readonly wanted = new Map<object, string[]>(); // paths, by who wants them
+  private readonly chosen = new Map<string, string>(); // the instance of a block that is shown
+  private readonly status = vscode.window.createStatusBarItem('rung.monitor', vscode.StatusBarAlignment.Left, 0);
   private readonly changed = new vscode.EventEmitter<void>();
   private readonly valuesArrived = new vscode.EventEmitter<Values>();
-  // A program begins or ends to be watched.
+  private readonly instanceChosen = new vscode.EventEmitter<void>();
+  // A program, or another version of it, begins or ends to be watched.
   readonly onDidChange = this.changed.event;
   readonly onValues = this.valuesArrived.event;
+  readonly onDidChoose = this.instanceChosen.event;
+  // Where the files are that the program names; undefined: on another machine perhaps.
+  folder: string | undefined;
+
+  constructor() {
+    this.status.name = 'Rung: running program';
+    this.status.command = 'rung.monitorMenu';
+  }
 
   get isConnected(): boolean {
     return this.url !== undefined;
+  }
+  get isOwn(): boolean {
+    return this.child !== undefined;
   }
   get page(): string | undefined {
     return this.url?.href;
@@ -94,20 +126,24 @@ export class Monitor implements vscode.Disposable {
       void vscode.window.showErrorMessage('Rung: the program did not start; its terminal says why.');
       return;
     }
-    await this.connect(url);
+    await this.connect(url, project.folder);
   }
 
-  // Throws where there is no monitor.
-  async connect(text: string): Promise<void> {
+  // Throws where there is no monitor. What was watched before is left.
+  async connect(text: string, folder?: string): Promise<void> {
     const url = new URL(text);
+    if (folder === undefined) await this.stop();
     this.url = url;
+    this.folder = folder;
     try {
-      await this.ask('/api/info');
+      this.info = await this.readInfo();
     } catch (error) {
       this.url = undefined;
       throw error;
     }
-    await vscode.commands.executeCommand('setContext', 'rung.monitored', true);
+    this.showStatus();
+    this.timer = setInterval(() => void this.poll(url), kInfoMs);
+    await vscode.commands.executeCommand('setContext', 'rung.monitored', this.isOwn ? 'own' : 'other');
     this.changed.fire();
   }
 
@@ -130,9 +166,41 @@ export class Monitor implements vscode.Disposable {
     return this.ask(`/api/diagram?pou=${encodeURIComponent(body)}`);
   }
 
-  // Values of these variables from now on, until others are wanted.
-  async watch(paths: string[]): Promise<void> {
+  // The lines of a body in text; of one that is drawn none.
+  async lines(body: string): Promise<{ file: string; lines: Line[] } | undefined> {
+    const answer = await this.picture(body);
+    return answer.startsWith('{') ? (JSON.parse(answer) as { file: string; lines: Line[] }) : undefined;
+  }
+
+  // The instance of a body's block that is shown.
+  instanceOf(body: Body): string | undefined {
+    const chosen = this.chosen.get(body.block);
+    return chosen !== undefined && body.instances.includes(chosen) ? chosen : body.instances[0];
+  }
+
+  choose(block: string, instance: string): void {
+    if (this.chosen.get(block) === instance) return;
+    this.chosen.set(block, instance);
+    this.instanceChosen.fire();
+  }
+
+  // Values of these variables from now on, until its owner wants others.
+  async watch(owner: object, paths: string[]): Promise<void> {
+    const before = this.allWanted();
+    if (paths.length === 0) this.wanted.delete(owner);
+    else this.wanted.set(owner, paths);
+    const all = this.allWanted();
+    if (this.stream !== undefined && all.length === before.length && all.every((path, i) => path === before[i])) return;
+    await this.follow(all);
+  }
+
+  private allWanted(): string[] {
+    return [...new Set([...this.wanted.values()].flat())].sort();
+  }
+
+  private async follow(paths: string[]): Promise<void> {
     this.stream?.abort();
+    this.stream = undefined;
     if (paths.length === 0 || this.url === undefined) return;
     const stream = new AbortController();
     this.stream = stream;
@@ -144,6 +212,33 @@ export class Monitor implements vscode.Disposable {
   dispose(): void {
     this.child?.kill('SIGINT');
     this.end();
+    this.status.dispose();
+  }
+
+  private readInfo(): Promise<Info> {
+    return this.ask('/api/info').then(answer => JSON.parse(answer) as Info);
+  }
+
+  // The program may have ended, or another version have taken over.
+  private async poll(url: URL): Promise<void> {
+    const before = this.info;
+    const info = await this.readInfo().catch(() => undefined);
+    if (this.url !== url) return;
+    if (info === undefined) return this.end();
+    this.info = info;
+    this.showStatus();
+    if (before?.changes === info.changes && before.rolled_back === info.rolled_back) return;
+    await this.follow(this.allWanted());
+    this.changed.fire();
+  }
+
+  private showStatus(): void {
+    if (this.info === undefined) return this.status.hide();
+    const { state, cycle } = this.info;
+    this.status.text = `$(pulse) ${state}, cycle ${cycle}`;
+    this.status.tooltip = `Rung: the program at ${this.url?.origin ?? ''}`;
+    this.status.backgroundColor = state === 'faulted' ? new vscode.ThemeColor('statusBarItem.errorBackground') : undefined;
+    this.status.show();
   }
 
   // Reads Server-Sent Events; the program has ended when they do.
@@ -184,9 +279,12 @@ export class Monitor implements vscode.Disposable {
   }
 
   private end(): void {
+    clearInterval(this.timer);
     this.stream?.abort();
     this.stream = undefined;
     this.child = undefined;
+    this.info = undefined;
+    this.showStatus();
     if (this.url === undefined) return;
     this.url = undefined;
     void vscode.commands.executeCommand('setContext', 'rung.monitored', false);

@@ -8,7 +8,7 @@ export interface TestResult {
 }
 
 const kEntities: Record<string, string> = { amp: '&', lt: '<', gt: '>', quot: '"', apos: "'" };
-const unescape = (text: string) => text.replace(/&(amp|lt|gt|quot|apos);/g, (_, name: string) => kEntities[name] ?? '');
+export const unescape = (text: string) => text.replace(/&(amp|lt|gt|quot|apos);/g, (_, name: string) => kEntities[name] ?? '');
 
 function attribute(attributes: string, name: string): string {
   const found = new RegExp(`\\b${name}="([^"]*)"`).exec(attributes);

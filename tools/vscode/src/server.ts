@@ -14,7 +14,7 @@ import {
 import { commonArguments, program, run } from './rung';
 
 // Commands that the server may name in code lenses, see docs/editor.md.
-const kLensCommands = ['rung.runTest', 'rung.showReferences'];
+const kLensCommands = ['rung.debugTest', 'rung.runTest', 'rung.showReferences'];
 
 const kXmlFiles = '**/*.{TcPOU,TcDUT,TcGVL,TcIO,TcTTO,TcTLEO,plcproj,xml,XML,cfc}';
 const kSelector = [
@@ -77,6 +77,7 @@ export class Server implements vscode.Disposable {
   // A request of Rung's own; undefined: no server, or it does not know this one.
   async ask<Answer>(method: string, params: object, token?: vscode.CancellationToken): Promise<Answer | null | undefined> {
     if (this.client === undefined || this.client.state !== State.Running) return undefined;
+    if (token === undefined) return this.client.sendRequest<Answer | null>(method, params);
     return this.client.sendRequest<Answer | null>(method, params, token);
   }
 

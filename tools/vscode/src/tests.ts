@@ -5,6 +5,7 @@ import * as fs from 'node:fs/promises';
 import * as os from 'node:os';
 import * as path from 'node:path';
 import * as vscode from 'vscode';
+import { debugTest } from './debug';
 import { findProjects, Project } from './projects';
 import { readFailures, readJunit, readLcov, TestResult } from './reports';
 import { commonArguments, Outcome, run } from './rung';
@@ -44,8 +45,9 @@ export class Tests implements vscode.Disposable {
   private timer: NodeJS.Timeout | undefined;
 
   constructor() {
-    const { Run, Coverage } = vscode.TestRunProfileKind;
+    const { Run, Debug, Coverage } = vscode.TestRunProfileKind;
     this.controller.createRunProfile('Run', Run, (request, token) => this.runTests(request, token, false), true);
+    this.controller.createRunProfile('Debug', Debug, (request, token) => this.debugTests(request, token), true);
     const coverage = this.controller.createRunProfile('Run with Coverage', Coverage, (request, token) =>
       this.runTests(request, token, true),
     );
@@ -83,6 +85,16 @@ export class Tests implements vscode.Disposable {
 
   // Runs one test, named as its POU: all its cases.
   async runNamed(uri: vscode.Uri, name: string): Promise<void> {
+    const request = await this.requestOf(uri, name);
+    if (request !== undefined) await this.runTests(request, new vscode.CancellationTokenSource().token, false);
+  }
+
+  async debugNamed(uri: vscode.Uri, name: string): Promise<void> {
+    const request = await this.requestOf(uri, name);
+    if (request !== undefined) await this.debugTests(request, new vscode.CancellationTokenSource().token);
+  }
+
+  private async requestOf(uri: vscode.Uri, name: string): Promise<vscode.TestRunRequest | undefined> {
     await this.refresh();
     const found: vscode.TestItem[] = [];
     const file = uri.fsPath;
@@ -90,8 +102,9 @@ export class Tests implements vscode.Disposable {
       const isIt = item.label === name || item.id.endsWith(`\n${name}`) || item.id.endsWith(`.${name}`);
       if (item.uri?.fsPath === file && isIt && item.parent !== undefined) found.push(item);
     });
-    if (found.length === 0) return void vscode.window.showWarningMessage(`Rung: no test \`${name}\` was found.`);
-    await this.runTests(new vscode.TestRunRequest(found.slice(0, 1)), new vscode.CancellationTokenSource().token, false);
+    if (found.length > 0) return new vscode.TestRunRequest(found.slice(0, 1));
+    void vscode.window.showWarningMessage(`Rung: no test \`${name}\` was found.`);
+    return undefined;
   }
 
   async runAll(): Promise<void> {
@@ -174,6 +187,23 @@ export class Tests implements vscode.Disposable {
       const isWhole = items.length === (byProject(all, this.leaves).get(project.folder)?.length ?? 0);
       for (const item of items) testRun.started(item);
       if (!token.isCancellationRequested) await this.runProject(project, items, isWhole, counts, testRun, token);
+    }
+    testRun.end();
+  }
+
+  // One after the other, each in a session of its own.
+  private async debugTests(request: vscode.TestRunRequest, token: vscode.CancellationToken): Promise<void> {
+    await vscode.workspace.saveAll(false);
+    const testRun = this.controller.createTestRun(request);
+    for (const item of this.chosenLeaves(request)) {
+      if (token.isCancellationRequested) break;
+      const { project, name } = this.leaves.get(item)!;
+      testRun.started(item);
+      const begin = Date.now();
+      const code = await debugTest(project, name, testRun);
+      if (code === 0) testRun.passed(item, Date.now() - begin);
+      else if (code === undefined) testRun.skipped(item);
+      else testRun.failed(item, new vscode.TestMessage('The test failed; the output has the reason.'), Date.now() - begin);
     }
     testRun.end();
   }

@@ -1,165 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// Uses the extension in a real editor: code-server in headless Chromium, with a project of two files. Each step does what
-// a user does, with keys, and looks at what the editor shows or at the files. Prints a line for each; the exit code is 1
-// when one fails. Called by editor.sh.
+// Uses the extension in a real editor, with a project of three files: each step does what a user does, and looks at what
+// the editor shows or at the files. Prints a line for each; the exit code is 1 when one fails. Called by editor.sh.
 //   node editor.mjs CODE-SERVER VSIX RUNG WORK-FOLDER [PICTURES]
-import { chromium } from 'playwright-core';
-import { execFileSync, spawn } from 'node:child_process';
+import { spawn } from 'node:child_process';
 import fs from 'node:fs';
-import net from 'node:net';
 import path from 'node:path';
+import * as debug from './debug.mjs';
+import { answer, command, cursorAt, drawingFrame, errorCount, failed, goTo, inDrawing, kMs, onDisk, open, page, picture, project, rung, startEditor, step, until, valuesAfter } from './driver.mjs';
 
-const [codeServer, vsix, rung, work, pictures] = process.argv.slice(2);
-const kMs = Number(process.env.RUNG_EDITOR_MS ?? 60000); // for each thing that must appear
-const kSources = new URL('project', import.meta.url).pathname;
-const project = path.join(work, 'plant');
-let page;
-let failed = 0;
-
-// ---- the editor
-
-function freePort() {
-  return new Promise(resolve => {
-    const probe = net.createServer().listen(0, '127.0.0.1', () => {
-      const { port } = probe.address();
-      probe.close(() => resolve(port));
-    });
-  });
-}
-
-async function startEditor() {
-  fs.cpSync(kSources, project, { recursive: true });
-  const settings = {
-    'rung.path': rung,
-    'workbench.startupEditor': 'none',
-    'workbench.secondarySideBar.defaultVisibility': 'hidden',
-    'workbench.colorTheme': process.env.RUNG_EDITOR_THEME ?? 'Default Light Modern',
-    'editor.minimap.enabled': false,
-    'editor.wordBasedSuggestions': 'off',
-    'files.autoSave': 'off',
-    'chat.disableAIFeatures': true,
-  };
-  for (const place of ['user/User', 'user/Machine']) {
-    fs.mkdirSync(path.join(work, place), { recursive: true });
-    fs.writeFileSync(path.join(work, place, 'settings.json'), JSON.stringify(settings));
-  }
-  const folders = ['--user-data-dir', `${work}/user`, '--extensions-dir', `${work}/extensions`, '--config', `${work}/config.yaml`];
-  execFileSync(process.execPath, [codeServer, ...folders, '--install-extension', vsix], { stdio: 'pipe' });
-  const port = await freePort();
-  const options = ['--auth', 'none', '--bind-addr', `127.0.0.1:${port}`, '--disable-telemetry', '--disable-update-check', '--disable-workspace-trust'];
-  const log = fs.openSync(path.join(work, 'server.log'), 'w');
-  const server = spawn(process.execPath, [codeServer, ...folders, ...options, project], { stdio: ['ignore', log, log] });
-  const browser = await chromium.launch({ executablePath: '/usr/bin/chromium', args: ['--no-sandbox', '--disable-gpu'] });
-  page = await browser.newPage({ viewport: { width: 1280, height: 800 } });
-  const until = Date.now() + kMs;
-  for (;;) {
-    try {
-      await page.goto(`http://127.0.0.1:${port}/?folder=${encodeURIComponent(project)}`);
-      break;
-    } catch (error) {
-      if (Date.now() > until) throw error;
-      await page.waitForTimeout(200);
-    }
-  }
-  await page.waitForSelector('.monaco-workbench', { timeout: kMs });
-  await page.locator('.explorer-folders-view .monaco-list-row', { hasText: 'pump.st' }).waitFor({ timeout: kMs });
-  return async () => {
-    await browser.close();
-    server.kill();
-  };
-}
-
-async function command(title) {
-  await page.keyboard.press('F1');
-  await page.waitForSelector('.quick-input-widget:visible input', { timeout: kMs });
-  await page.keyboard.type(title);
-  const row = page.locator(`.quick-input-list .monaco-list-row[aria-label^="${title}"]`).first();
-  await row.waitFor({ timeout: kMs });
-  await row.click();
-}
-
-// A file that was made a moment ago is not in the list at once: the list is opened again.
-async function open(file, line, column) {
-  const row = page.locator('.quick-input-list .monaco-list-row.focused', { hasText: file }).first();
-  await until(`${file} in the list of files`, async () => {
-    await page.keyboard.press('Control+p');
-    await page.waitForSelector('.quick-input-widget:visible input', { timeout: kMs });
-    await page.keyboard.type(file);
-    if (await row.waitFor({ timeout: kMs / 10 }).then(() => true, () => false)) return true;
-    await page.keyboard.press('Escape');
-    return false;
-  });
-  await page.keyboard.press('Enter');
-  await page.locator('.tab.active', { hasText: file }).waitFor({ timeout: kMs });
-  if (line !== undefined) await goTo(line, column);
-}
-
-async function goTo(line, column = 1) {
-  await page.keyboard.press('Control+g');
-  await page.waitForSelector('.quick-input-widget:visible input', { timeout: kMs });
-  await page.keyboard.type(`${line}:${column}`);
-  await page.locator('.quick-input-list .monaco-list-row', { hasText: `to go to line ${line} at column ${column}` }).first().waitFor({ timeout: kMs });
-  await page.keyboard.press('Enter');
-  await cursorAt(line, column);
-}
-
-const cursorAt = (line, column) =>
-  page.locator('.statusbar-item', { hasText: `Ln ${line}, Col ${column}` }).first().waitFor({ timeout: kMs });
-
-async function until(what, test, ms = kMs) {
-  const end = Date.now() + ms;
-  for (;;) {
-    if (await test()) return;
-    if (Date.now() > end) throw new Error(`not seen: ${what}`);
-    await page.waitForTimeout(100);
-  }
-}
-
-const onDisk = file => fs.readFileSync(path.join(project, file), 'utf8');
-const errorCount = () => page.locator('.squiggly-error').count();
-
-async function drawingFrame() {
-  let found;
-  await until('the drawing', async () => {
-    for (const frame of page.frames())
-      if ((await frame.locator('#drawing').count().catch(() => 0)) > 0) found = frame;
-    return found !== undefined;
-  });
-  return found;
-}
-
-// What a function of the page sees in the picture, which has a document of its own.
-const inDrawing = async (frame, read) => frame.locator('#drawing').evaluate(read).catch(() => undefined);
-
-async function picture(name, clip) {
-  if (pictures === undefined) return;
-  fs.mkdirSync(pictures, { recursive: true });
-  if (name !== 'error.png') await page.mouse.move(640, 785); // away from what shows a tooltip
-  await page.waitForTimeout(500);
-  await page.screenshot({ path: path.join(pictures, name), ...(clip === undefined ? {} : { clip }) });
-}
-
-async function step(name, act) {
-  const begin = Date.now();
-  try {
-    const text = await act();
-    console.log(`ok    ${name}${text === undefined ? '' : `: ${text}`}`);
-  } catch (error) {
-    failed += 1;
-    console.log(`FAIL  ${name}: ${error.message} (${Date.now() - begin} ms)`);
-    await page.screenshot({ path: path.join(work, `failed-${failed}.png`) });
-    await page.keyboard.press('Escape');
-  }
-}
-
-// ---- what a user does
 
 async function serverRuns() {
   await open('pump.st');
   await page.locator('.statusbar-item', { hasText: 'Rung' }).locator('.codicon-check').first().waitFor({ timeout: kMs });
 }
 
-async function errorAppears() {
+async function errorAppears(pictureName) {
   await open('pump.st', 17, 1);
   await page.keyboard.type('level := levle;\n');
   await until('an error underlined', async () => (await errorCount()) > 0);
@@ -168,7 +23,7 @@ async function errorAppears() {
   await page.keyboard.press('Control+i');
   const message = page.locator('.monaco-hover', { hasText: '`levle` is not declared' }).first();
   await message.waitFor({ timeout: kMs });
-  await picture('error.png', { x: 0, y: 0, width: 1280, height: 560 });
+  await picture(pictureName, { x: 0, y: 0, width: 1280, height: 560 });
 }
 
 async function fixApplies() {
@@ -302,6 +157,7 @@ async function redraws() {
 }
 
 async function isLive() {
+  await command('View: Close Editors in Other Groups');
   await open('motor_starter.st', 15, 1);
   await command('Rung: Run the Project and Show It Live');
   const frame = await drawingFrame();
@@ -313,6 +169,160 @@ async function isLive() {
   await picture('live.png');
   await command('Rung: End the Running Program');
   await until('the end', async () => (await frame.locator('#head').isHidden()));
+}
+
+// ---- a program that runs
+
+const levelOf = async line => Number(/\blevel = ([\d.]+)/.exec(await valuesAfter(line))?.[1] ?? NaN);
+
+async function valuesInText() {
+  await command('View: Close All Editors');
+  await open('pump.st', 17, 1);
+  await command('Rung: Run the Project and Show It Live');
+  await until('a value after a line', async () => (await levelOf('level := level + 0.1;')) >= 0.1);
+  const first = await levelOf('level := level + 0.1;');
+  await until('the value grows', async () => (await levelOf('level := level + 0.1;')) > first);
+  await until('a member', async () => /^pump\.running = (TRUE|FALSE)$/.test(await valuesAfter('IF pump.running THEN')));
+  await page.keyboard.press('Control+j');
+  await command('View: Show Explorer');
+  await picture('values.png', { x: 0, y: 0, width: 1280, height: 560 });
+  return await valuesAfter('level := level + 0.1;');
+}
+
+// The other tank is ten times slower.
+async function choosesInstance() {
+  const slow = page.locator('.codelens-decoration a', { hasText: 'Tank1 (one of 2)' }).first();
+  await slow.waitFor({ timeout: kMs });
+  const other = page.locator('.quick-input-list .monaco-list-row', { hasText: 'Tank2' }).first();
+  await until('the instances', async () => {  // a lens that is drawn again in this moment takes no click
+    await slow.click();
+    return other.waitFor({ timeout: kMs / 10 }).then(() => true, () => false);
+  });
+  await other.click();
+  await page.locator('.codelens-decoration a', { hasText: 'Tank2 (one of 2)' }).first().waitFor({ timeout: kMs });
+  await until('the value of the slow one', async () => (await levelOf('level := level + 0.1;')) <= 0.2);
+}
+
+async function valuesMoveWithText() {
+  await goTo(1, 1);
+  await page.keyboard.type('// a line more\n');
+  await page.locator('.view-line', { hasText: 'a line more' }).first().waitFor({ timeout: kMs });
+  await page.waitForTimeout(500);
+  if (!((await levelOf('level := level + 0.1;')) >= 0.1)) throw new Error('no value after an edit above');
+  await goTo(20, 1);
+  await page.keyboard.type('level := level + 0.0;\n');
+  await page.keyboard.press('Control+s');
+  await until('the value in a new line of the version that took over', async () => (await levelOf('level := level + 0.0;')) >= 0.1);
+}
+
+async function endsProgram() {
+  await command('Rung: End the Running Program');
+  await until('no value', async () => (await valuesAfter('level := level + 0.1;')) === '');
+}
+
+const kPrompt = 'The URL that the program printed at its start';
+
+// A program that somebody else started.
+async function connectsByUrl() {
+  await open('pump.st', 17, 1);
+  await command('Rung: Connect to the Monitor of a Running Program');
+  await answer(kPrompt, 'http://127.0.0.1:1/?token=no');
+  await page.locator('.notification-list-item', { hasText: 'no monitor answers there' }).first().waitFor({ timeout: kMs });
+  await command('Notifications: Clear All Notifications');
+  const program = spawn(rung, ['run', project, '--monitor', '0'], { stdio: ['ignore', 'ignore', 'pipe'] });
+  try {
+    const url = await new Promise(resolve => {
+      let said = '';
+      program.stderr.on('data', data => {
+        said += data;
+        const found = /^monitor: (\S+)/m.exec(said);
+        if (found !== null) resolve(found[1]);
+      });
+    });
+    await command('Rung: Connect to the Monitor of a Running Program');
+    await answer(kPrompt, url);
+    await until('a value', async () => (await levelOf('level := level + 0.1;')) >= 0.1);
+    await page.locator('.statusbar-item', { hasText: /running, cycle \d+/ }).first().waitFor({ timeout: kMs });
+    await command('Rung: Disconnect from the Running Program');
+    await until('no value', async () => (await valuesAfter('level := level + 0.1;')) === '');
+    if (program.exitCode !== null) throw new Error('the program has ended');
+    await command('Rung: Connect to the Monitor of a Running Program');
+    await answer(kPrompt, url);
+    await until('a value again', async () => (await levelOf('level := level + 0.1;')) >= 0.1);
+  } finally {
+    program.kill('SIGINT');
+  }
+  await until('that it has ended is seen', async () => (await valuesAfter('level := level + 0.1;')) === '');
+}
+
+// ---- coverage, walkthrough, trust
+
+async function showsCoverage() {
+  await open('pump.st', 8, 1);
+  await command('Test: Run All Tests with Coverage');
+  const row = page.locator('.test-coverage-tree .monaco-list-row, .monaco-list-row', { hasText: /pump\.st.*\d+(\.\d+)?%/ }).first();
+  await row.waitFor({ timeout: kMs });
+  await open('pump.st', 8, 1);
+  const count = kind => page.locator(`.coverage-deco-gutter.coverage-deco-${kind}`).count();
+  await until('a line that ran', async () => (await count('hit')) > 0);
+  await until('a line that did not run', async () => (await count('miss')) > 0);
+  const text = `${await count('hit')} lines ran, ${await count('miss')} did not`;
+  await picture('coverage.png');
+  await page.getByText('Close Test Coverage').first().click();
+  await until('the end of it', async () => (await count('hit')) === 0);
+  await page.keyboard.press('Control+j');
+  return text;
+}
+
+async function walksThrough() {
+  await command('View: Close All Editors');
+  await page.keyboard.press('Control+b'); // a narrow page has no pictures
+  await command('Welcome: Open Walkthrough...');
+  await page.locator('.quick-input-list .monaco-list-row', { hasText: 'PLC programs with Rung' }).first().click();
+  const steps = page.locator('.getting-started-step');
+  await until('the steps', async () => (await steps.count()) === 5);
+  const kPictures = { 'Open a project': 'error', 'See the drawing': 'drawing', 'Run the tests': 'tests', 'Watch it run': 'live' };
+  for (const [title, name] of Object.entries(kPictures)) {
+    await page.locator('.getting-started-step', { hasText: title }).first().click();
+    await until(`the picture of ${title}`, () =>
+      page.evaluate(file => [...document.querySelectorAll('.getting-started-media img')].some(one => one.currentSrc.includes(file) && one.naturalWidth > 0), `${name}.png`),
+    );
+  }
+  await picture('walkthrough.png');
+  await page.getByRole('button', { name: 'Run and show it live' }).first().waitFor({ timeout: kMs });
+  await page.keyboard.press('Control+b');
+  await command('View: Close All Editors');
+}
+
+// The folder brings a program of its own as `rung.path`; it must not run before the folder is trusted.
+const kOwn = {
+  '.vscode/settings.json': JSON.stringify({ 'rung.path': './own-rung' }),
+  'own-rung': `#!/bin/sh\necho "$@" >>"$(dirname "$0")/ran"\nexec '${rung}' "$@"\n`,
+};
+const hasRun = () => fs.existsSync(path.join(project, 'ran'));
+
+async function isRestricted() {
+  await page.locator('.statusbar-item', { hasText: 'Restricted Mode' }).first().waitFor({ timeout: kMs });
+  await serverRuns();
+  await errorAppears('restricted_error.png');
+  await errorGoes();
+  await command('Rung: Run the Project');
+  await page.locator('.notification-list-item', { hasText: 'programs run in trusted folders only' }).first().waitFor({ timeout: kMs });
+  await command('Notifications: Clear All Notifications');
+  await command('Rung: Test the Project');
+  await page.locator('.notification-list-item', { hasText: 'tests run in trusted folders only' }).first().waitFor({ timeout: kMs });
+  await picture('restricted.png');
+  if (hasRun()) throw new Error('the program of the folder ran');
+}
+
+async function isTrustedLater() {
+  await command('Notifications: Clear All Notifications');
+  await command('Workspaces: Manage Workspace Trust');
+  await page.locator('.workspace-trust-editor .monaco-button', { hasText: /^Trust$/ }).first().click();
+  await until('the program of the folder runs', hasRun);
+  await page.keyboard.press('Escape');
+  await open('pump.st');
+  await page.locator('.statusbar-item', { hasText: 'Rung' }).locator('.codicon-check').first().waitFor({ timeout: kMs });
 }
 
 async function hasTasks() {
@@ -337,32 +347,69 @@ async function editsTwinCat() {
   const styleOf = text => page.locator('.view-line span span', { hasText: text }).first().getAttribute('class');
   await until('colours in the CDATA', async () => (await styleOf('END_VAR')) !== (await styleOf('count')));
   await picture('twincat.png');
+  const text = onDisk('twincat/Motor.TcPOU');
+  const line = text.split('\n').findIndex(one => one.includes('zero')) + 1;
+  await goTo(line, text.split('\n')[line - 1].indexOf('zero') + 1);
+  await page.keyboard.press('Control+Shift+ArrowRight');
+  await page.keyboard.type('1');
+  await until('no error', async () => (await errorCount()) === 0);
+  await command('Rung: Run the Project and Show It Live');
+  await until('a value in the CDATA', async () => /^count = [1-9]/.test(await valuesAfter('count := count + 1;')));
+  await until('a value beside a tag', async () => /^start = TRUE$/.test(await valuesAfter('<ST><![CDATA[IF start THEN')));
+  await command('Rung: End the Running Program');
 }
 
-const stop = await startEditor();
-try {
-  await step('the language server runs', serverRuns);
-  if (failed > 0) throw new Error('the language server does not run');
-  await step('an error appears', errorAppears);
-  if (process.env.RUNG_FIXES !== 'no') await step('a fix applies', fixApplies);
-  await step('an error goes', errorGoes);
-  await step('completion', completes);
-  await step('definition', goesToDefinition);
-  await step('rename in two files', renames);
-  await step('formatting', formats);
-  await step('symbols', outlines);
-  await step('the Test Explorer runs tests', runsTests);
-  await step('a failure is shown at its line', showsFailure);
-  await step('the lens runs a test', runsLens);
-  await step('tasks', hasTasks);
-  if (process.env.RUNG_DRAWINGS !== 'no') {
+async function inTrustedFolder() {
+  const stop = await startEditor('plant');
+  try {
+    await step('the language server runs', serverRuns);
+    if (failed > 0) throw new Error('the language server does not run');
+    await step('an error appears', () => errorAppears('error.png'));
+    await step('a fix applies', fixApplies);
+    await step('an error goes', errorGoes);
+    await step('completion', completes);
+    await step('definition', goesToDefinition);
+    await step('rename in two files', renames);
+    await step('formatting', formats);
+    await step('symbols', outlines);
+    await step('the Test Explorer runs tests', runsTests);
+    await step('a failure is shown at its line', showsFailure);
+    await step('the lens runs a test', runsLens);
+    await step('coverage', showsCoverage);
+    await step('tasks', hasTasks);
     await step('the drawing follows the cursor', draws);
     await step('a click goes to the text', clickGoesToText);
     await step('an edit redraws', redraws);
     await step('the drawing is live', isLive);
+    await step('values in the text are live', valuesInText);
+    await step('values of another instance', choosesInstance);
+    await step('values move with their text', valuesMoveWithText);
+    await step('values end with the program', endsProgram);
+    await step('a program that runs elsewhere', connectsByUrl);
+    await step('the debugger stops in ST', debug.stopsInText);
+    await step('the debugger shows values in the text', debug.showsInlineValues);
+    await step('the debugger steps forward and back', debug.stepsBothWays);
+    await step('the debugger evaluates', debug.evaluates);
+    await step('the debugger stops on a change', debug.breaksOnChange);
+    await step('the debugger stops in a network', debug.stopsInNetwork);
+    await step('the debugger runs a test', debug.debugsTest);
+    await step('a file of TwinCAT', editsTwinCat);
+    await step('the walkthrough', walksThrough);
+  } finally {
+    await stop();
   }
-  await step('a file of TwinCAT', editsTwinCat);
-} finally {
-  await stop();
 }
+
+async function inUntrustedFolder() {
+  const stop = await startEditor('foreign', { isTrusted: false, files: kOwn });
+  try {
+    await step('a folder that is not trusted', isRestricted);
+    await step('a folder that is trusted later', isTrustedLater);
+  } finally {
+    await stop();
+  }
+}
+
+await inTrustedFolder();
+await inUntrustedFolder();
 process.exit(failed === 0 ? 0 : 1);
