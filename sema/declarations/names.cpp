@@ -291,7 +291,7 @@ bool isBroken(const Context& context, PouId id) {
 namespace {
 
 bool firstTime(Context& context, uint32_t where, NameId name) {
-  if (context.symbols.diagnostics.full()) return true;  // only counted, and not worth the search
+  if (context.symbols.diagnostics.full() || context.scopes.reports_all) return true;
   const uint64_t key = uint64_t{where} << 32 | keyOf(context, name).index;
   std::vector<Scopes::Reported>& reported = context.scopes.reported;
   const auto is_same = [&](const Scopes::Reported& known) { return known.key == key; };
@@ -310,7 +310,7 @@ bool isFirstReport(Context& context, NameId name) {
 bool isFirstReportOfMember(Context& context, TypeId record, NameId name) {
   const NamedType* named = context.scopes.named(context.types().resolve(record));
   if (named != nullptr && (isBroken(context, named->pou) || context.tree().lost_names)) return false;
-  noteEffect(context);  // another body may name it too
+  if (!context.scopes.reports_all) noteEffect(context);  // another body may name it too
   return firstTime(context, 0x80000000u | record.index, name);
 }
 

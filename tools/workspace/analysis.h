@@ -21,8 +21,9 @@ class Analysis {
   bool edit(const std::map<std::string, std::string>& texts, const std::atomic<bool>* cancelled);
 
   // The errors of statements as the body of a POU, each on a line of its own: for each the columns and codes, `5:E0401
-  // 9:E0231`. The analysis is of no use afterwards.
+  // 9:E0231`. The analysis is of no use afterwards, unless staysUsable().
   std::vector<std::string> errorsOf(sema::PouId pou, const std::vector<std::string>& statements);
+  bool staysUsable(sema::PouId pou, const std::vector<std::string>& statements) const;
 
   // Bodies to be checked once for each of several types of some variables.
   struct TypeTrial {
@@ -48,6 +49,7 @@ class Analysis {
   mutable std::atomic<uint32_t> readers = 0;
 
  private:
+  std::vector<std::string> errorsIn(FileId file, size_t lines) const;
   DeclId trialBody(sema::PouId id, const std::string& statements, FileId& file);
   size_t errorsOf(const std::vector<sema::CheckedProject::NewBody>& bodies) const;
   EditedFile* editedFile(const std::string& path);
