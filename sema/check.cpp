@@ -16,6 +16,7 @@
 #include "sema/declarations/collect.h"
 #include "sema/declarations/configuration.h"
 #include "sema/declarations/initial_order.h"
+#include "sema/declarations/initial_values.h"
 #include "sema/declarations/instance_paths.h"
 #include "sema/declarations/libraries.h"
 #include "sema/declarations/objects.h"
@@ -23,6 +24,7 @@
 #include "sema/declarations/resolve.h"
 #include "sema/declarations/signatures.h"
 #include "sema/declarations/test_cases.h"
+#include "sema/declarations/types.h"
 #include "sema/scopes.h"
 
 namespace rung::sema {
@@ -147,6 +149,17 @@ void CheckedProject::tryBody(const NewBody& body) {
   project_.pou(body.pou).decl = body.decl;
   scopes_->reports_all = true;
   ensureBody(context, body.pou);
+}
+
+TypeId CheckedProject::typeOfDeclaration(PouId pou, DeclId var) {
+  Context context = contextOf(project_, *scopes_);
+  Context there = pou ? atPou(context, pou) : context;
+  scopes_->reports_all = true;
+  const VarDecl& decl = there.tree().as<VarDecl>(var);
+  const TypeId type = resolveType(there, decl.type);
+  if (type && type != types::kError && ensureLayout(there, type))
+    if (ExprId init = there.code().copy(decl.init)) checkInitializer(there, init, type);
+  return type;
 }
 
 bool CheckedProject::canTryBody(PouId pou) {

@@ -283,6 +283,7 @@ VarId findPin(Context& context, PouId pou, NameId name) {
 }
 
 bool isBroken(const Context& context, PouId id) {
+  if (context.scopes.reports_all) return false;
   const DeclId decl = id ? context.symbols.pou(id).decl : DeclId{};
   if (decl && context.tree().as<PouDecl>(decl).is_broken) return true;
   return id && (context.symbols.pou(id).object.unresolved || isBroken(context, context.symbols.pou(id).owner));
@@ -303,14 +304,16 @@ bool firstTime(Context& context, uint32_t where, NameId name) {
 }  // namespace
 
 bool isFirstReport(Context& context, NameId name) {
-  if (context.tree().lost_names || isBroken(context, context.pou)) return false;
+  const bool is_lost = context.tree().lost_names && !context.scopes.reports_all;
+  if (is_lost || isBroken(context, context.pou)) return false;
   return firstTime(context, context.pou.index, name);
 }
 
 bool isFirstReportOfMember(Context& context, TypeId record, NameId name) {
+  if (context.scopes.reports_all) return true;
   const NamedType* named = context.scopes.named(context.types().resolve(record));
   if (named != nullptr && (isBroken(context, named->pou) || context.tree().lost_names)) return false;
-  if (!context.scopes.reports_all) noteEffect(context);  // another body may name it too
+  noteEffect(context);  // another body may name it too
   return firstTime(context, 0x80000000u | record.index, name);
 }
 

@@ -8,8 +8,8 @@
 #   completions.py PROJECT... [--seed N] [--count N] [--items N] [--letters N] [--verbose]
 #
 # A place is any name in code that is not a declaration. `--items`: as many of what is offered are tried, at random, of all
-# ranks. `--letters`: so many letters of the name stay in the text, as if they had been typed; what needs more than one word
-# to be a program is offered then too, and counts as an error. Where nothing is offered the place is not counted.
+# ranks. `--letters`: so many letters of the name stay in the text, as if they had been typed; names of libraries are
+# offered then too. Where nothing is offered the place is not counted.
 # A measure, not a test: the part of good places should grow.
 import argparse
 import collections

@@ -130,6 +130,7 @@ void Scope::addGlobals() {
   }
   for (uint32_t i = 1; i < project_.global_lists.size(); ++i) {
     const sema::GlobalList& of = project_.global_lists[i];
+    if (of.name && project_.names.string(of.name).ends_with("__texts")) continue;  // sema/bodies/literal_storage.h
     if (!of.qualified_only)
       for (const VarId var : of.vars)
         if (isWritten(project_.var(var))) list(project_.var(var).name, Entity::of(EntityKind::Var, var.index));

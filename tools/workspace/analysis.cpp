@@ -122,9 +122,33 @@ size_t Analysis::errorsOf(const std::vector<sema::CheckedProject::NewBody>& bodi
   }));
 }
 
+// Of the declarations; kError: the type does not exist, or does not take the initial value.
+std::vector<TypeId> Analysis::typesOf(const TypeTrial& trial) {
+  driver::Compilation& of = compilation_;
+  std::vector<TypeId> types(trial.types.size(), types::kError);
+  std::string text = "PROGRAM trial VAR\n";
+  for (size_t i = 0; i < types.size(); ++i) text += "t" + std::to_string(i) + " : " + trial.types[i] + ";\n";
+  const FileId file = of.sources.add("trial", text + "END_VAR END_PROGRAM\n");
+  if (!file) return types;
+  of.diagnostics.max_errors = UINT32_MAX;
+  const FileUnit unit = text::parseFile(of.tree, of.names, of.sources, file, of.options.dialect, of.diagnostics);
+  const std::span<const DeclId> parsed = of.tree.list(unit.decls);
+  if (parsed.empty() || of.tree.kind(parsed[0]) != DeclKind::Pou) return types;
+  for (const DeclId section : of.tree.list(of.tree.as<PouDecl>(parsed[0]).sections))
+    for (const DeclId var : of.tree.list(of.tree.as<SectionDecl>(section).vars)) {
+      const uint32_t line = of.sources.location(of.tree.decl(var).loc).line;
+      if (line >= 2 && line - 2 < types.size()) types[line - 2] = of.checked->typeOfDeclaration(trial.pou, var);
+    }
+  const std::vector<std::string> errors = errorsIn(file, types.size());
+  for (size_t i = 0; i < types.size(); ++i)
+    if (!errors[i].empty()) types[i] = types::kError;
+  return types;
+}
+
 std::string Analysis::goodTypes(const TypeTrial& trial) {
   driver::Compilation& of = compilation_;
   if (!of.checked) return {};
+  const std::vector<TypeId> types = typesOf(trial);
   std::vector<sema::CheckedProject::NewBody> bodies;
   std::vector<FileId> files;
   for (const TypeTrial::Body& body : trial.bodies) {
@@ -134,13 +158,15 @@ std::string Analysis::goodTypes(const TypeTrial& trial) {
   }
   const auto errorsWith = [&](TypeId type) {
     for (const sema::VarId var : trial.vars) of.project->var(var).type = type;
+    if (trial.result_of) of.project->pou(trial.result_of).result = type;
     of.diagnostics.closeLines();
     for (const auto& body : bodies) of.checked->tryBody(body);
     return errorsOf(bodies);
   };
-  const size_t known = errorsWith(types::kError);
+  const size_t known = bodies.empty() ? 0 : errorsWith(types::kError);
   std::string good;
-  for (const TypeId type : trial.types) good += errorsWith(type) <= known ? '+' : '-';
+  for (const TypeId type : types)
+    good += type && type != types::kError && (bodies.empty() || errorsWith(type) <= known) ? '+' : '-';
   return good;
 }
 

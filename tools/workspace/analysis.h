@@ -28,15 +28,17 @@ class Analysis {
   // Bodies to be checked once for each of several types of some variables.
   struct TypeTrial {
     std::vector<sema::VarId> vars;
-    std::vector<TypeId> types;
+    sema::PouId result_of;           // whose result has the type as well; none: nothing's
+    sema::PouId pou;                 // around the declaration; none: file level
+    std::vector<std::string> types;  // with initial values, as they are written: `INT := 5`
     struct Body {
       sema::PouId pou;
       std::string statements;  // that name the variables; empty: its own ones
     };
     std::vector<Body> bodies;
   };
-  // The types with which there is no error that there is not with a variable of which nothing is known: for each `+` or
-  // `-`. The analysis is of no use afterwards.
+  // The types that exist, take the initial value, and with which there is no error that there is not with a variable of
+  // which nothing is known: for each `+` or `-`. The analysis is of no use afterwards.
   std::string goodTypes(const TypeTrial& trial);
 
   // Only one more edit will come.
@@ -51,6 +53,7 @@ class Analysis {
  private:
   std::vector<std::string> errorsIn(FileId file, size_t lines) const;
   DeclId trialBody(sema::PouId id, const std::string& statements, FileId& file);
+  std::vector<TypeId> typesOf(const TypeTrial& trial);
   size_t errorsOf(const std::vector<sema::CheckedProject::NewBody>& bodies) const;
   EditedFile* editedFile(const std::string& path);
   bool checkAgain(const std::map<std::string, std::string>& texts, const std::atomic<bool>* cancelled);
