@@ -330,7 +330,8 @@ bool isCallable(const Context& context, Entity found) {
 }
 
 std::string_view nearestOf(Context& context, NameId written, bool callable) {
-  if (context.symbols.diagnostics.full()) return {};  // the message is not printed, and the search is slow
+  const bool is_read = !context.symbols.diagnostics.full() && !context.scopes.reports_all;
+  if (!is_read) return {};  // the message is not printed, and the search is slow
   if (const std::string_view elsewhere = nameElsewhere(context, keyOf(context, written)); !elsewhere.empty())
     return elsewhere;
   std::vector<std::string_view> candidates;

@@ -390,7 +390,8 @@ class Completer : Offers {
     if (context_.needs == Needs::Lvalue && (!is_var || project_.vars[entity.index].constant)) return false;
     if (context_.needs == Needs::Selector) return !is_item && (!is_plain || types::TypeTable::isInteger(kind));
     const types::TypeKind wanted = project_.types.plainKind(context_.expected);
-    const bool is_value = is_var || is_item || entity.entityKind() == EntityKind::Property;
+    const bool is_result = entity.entityKind() == EntityKind::Pou && !types::TypeTable::isGeneric(kind);
+    const bool is_value = is_var || is_item || is_result || entity.entityKind() == EntityKind::Property;
     if (!context_.expected || !is_value || !is_plain || !types::TypeTable::isElementary(wanted)) return true;
     return canBe(scope_.typeOf(entity));
   }
