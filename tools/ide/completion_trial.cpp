@@ -177,7 +177,7 @@ class TypeUses {
     scanner.moveTo(begin);
     size_t last = begin;
     for (Unit unit = scanner.nextCode(); unit.kind != UnitKind::End && unit.begin < end; unit = scanner.nextCode()) {
-      if (unit.begin > last) out += ' ';
+      if (unit.begin > last && !out.empty()) out += ' ';
       out += scanner.textOf(unit);
       last = unit.end;
     }
