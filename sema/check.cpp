@@ -16,6 +16,7 @@
 #include "sema/declarations/collect.h"
 #include "sema/declarations/configuration.h"
 #include "sema/declarations/initial_order.h"
+#include "sema/declarations/initial_values.h"
 #include "sema/declarations/instance_paths.h"
 #include "sema/declarations/libraries.h"
 #include "sema/declarations/objects.h"
@@ -23,6 +24,7 @@
 #include "sema/declarations/resolve.h"
 #include "sema/declarations/signatures.h"
 #include "sema/declarations/test_cases.h"
+#include "sema/declarations/types.h"
 #include "sema/scopes.h"
 
 namespace rung::sema {
@@ -135,7 +137,9 @@ CheckedProject::~CheckedProject() = default;
 std::span<const FileId> CheckedProject::librarySources() const { return scopes_->libraries.sources; }
 
 size_t CheckedProject::knownBesideBodies() const {
-  return project_.vars.size() + project_.pous.size() + project_.global_lists.size() + scopes_->code.size() +
+  const auto checked = static_cast<size_t>(
+      std::count_if(project_.pous.begin(), project_.pous.end(), [](const Pou& pou) { return pou.progress.checked(); }));
+  return checked + project_.vars.size() + project_.pous.size() + project_.global_lists.size() + scopes_->code.size() +
          scopes_->written_types.size() + scopes_->initial_values.size();
 }
 
@@ -143,7 +147,33 @@ void CheckedProject::tryBody(const NewBody& body) {
   Context context = contextOf(project_, *scopes_);
   takeBackBodies(context, {&body.pou, 1});
   project_.pou(body.pou).decl = body.decl;
+  scopes_->reports_all = true;
   ensureBody(context, body.pou);
+}
+
+TypeId CheckedProject::typeOfDeclaration(PouId pou, DeclId var) {
+  Context context = contextOf(project_, *scopes_);
+  Context there = pou ? atPou(context, pou) : context;
+  scopes_->reports_all = true;
+  const VarDecl& decl = there.tree().as<VarDecl>(var);
+  const TypeId type = resolveType(there, decl.type);
+  if (type && type != types::kError && ensureLayout(there, type))
+    if (ExprId init = there.code().copy(decl.init)) checkInitializer(there, init, type);
+  return type;
+}
+
+bool CheckedProject::canTryBody(PouId pou) {
+  Context context = contextOf(project_, *scopes_);
+  const Diagnostics& diagnostics = project_.diagnostics;
+  return isReplaceable(context, pou) && diagnostics.droppedCount() + diagnostics.droppedWarningCount() == 0;
+}
+
+void CheckedProject::tryBodyForNow(const NewBody& body) {
+  Context context = contextOf(project_, *scopes_);
+  const OtherBody other(context, body.pou, body.decl);
+  scopes_->reports_all = true;
+  ensureBody(context, body.pou);
+  scopes_->reports_all = false;
 }
 
 bool CheckedProject::replaceBodies(std::span<const NewBody> bodies) {

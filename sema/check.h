@@ -43,6 +43,13 @@ class CheckedProject {
   // Checks a body in the place of that of its POU, to see what is wrong with it. What is known of the project is of no
   // use afterwards: for a copy of the process, which ends then.
   void tryBody(const NewBody& body);
+  // The type of a declaration that was parsed for this, as a POU or, without one, the project sees its names; its
+  // initial value is checked with it. The project is of no use afterwards.
+  TypeId typeOfDeclaration(PouId pou, DeclId var);
+  // Whether another body of the POU can be tried and its own one put back. It may not name an address.
+  bool canTryBody(PouId pou);
+  // Does so. What is said of the body stays in the diagnostics.
+  void tryBodyForNow(const NewBody& body);
   // Grows with what outlives bodies, such as a library block that one used first.
   size_t knownBesideBodies() const;
 

@@ -186,6 +186,7 @@ struct Scopes {
     friend bool operator==(const Reported&, const Reported&) = default;
   };
   std::vector<Reported> reported;
+  bool reports_all = false;  // an unknown name is reported wherever it is, also where declarations were lost
   NameMap pous_and_types;
   NameMap globals;
   NameMap items;             // enumeration items by their bare name: the first that was declared

@@ -2,7 +2,7 @@
 #include "sema/bodies/replacement.h"
 
 #include <algorithm>
-#include <vector>
+#include <utility>
 
 #include "sema/project.h"
 #include "sema/scopes.h"
@@ -65,6 +65,32 @@ void takeBackBodies(Context& context, std::span<const PouId> pous) {
   project.diagnostics.retract([&](const Diagnostic& diagnostic) {
     return diagnostic.reporter < is_gone.size() && is_gone[diagnostic.reporter];
   });
+}
+
+OtherBody::OtherBody(Context& context, PouId pou, DeclId decl)
+    : context_(context),
+      pou_(pou),
+      edges_(context.project.call_edges.size()),
+      writes_(context.project.global_writes.size()),
+      reported_(context.scopes.reported.size()) {
+  for (const Pou& of : context.project.pous) used_.push_back(of.progress.used);
+  Pou& of = context.project.pou(pou);
+  own_decl_ = std::exchange(of.decl, decl);
+  own_body_ = std::exchange(of.body, {});
+  own_state_ = std::exchange(of.progress.body, Pou::Progress::Body::New);
+}
+
+OtherBody::~OtherBody() {
+  Project& project = context_.project;
+  Pou& of = project.pou(pou_);
+  takeBackMentions(project, of.body.mentions);
+  of.decl = own_decl_;
+  of.body = std::move(own_body_);
+  of.progress.body = own_state_;
+  for (size_t i = 0; i < used_.size(); ++i) project.pous[i].progress.used = used_[i];
+  project.call_edges.resize(edges_);
+  project.global_writes.resize(writes_);
+  context_.scopes.reported.resize(reported_);
 }
 
 }  // namespace rung::sema

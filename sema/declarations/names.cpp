@@ -283,6 +283,7 @@ VarId findPin(Context& context, PouId pou, NameId name) {
 }
 
 bool isBroken(const Context& context, PouId id) {
+  if (context.scopes.reports_all) return false;
   const DeclId decl = id ? context.symbols.pou(id).decl : DeclId{};
   if (decl && context.tree().as<PouDecl>(decl).is_broken) return true;
   return id && (context.symbols.pou(id).object.unresolved || isBroken(context, context.symbols.pou(id).owner));
@@ -291,7 +292,7 @@ bool isBroken(const Context& context, PouId id) {
 namespace {
 
 bool firstTime(Context& context, uint32_t where, NameId name) {
-  if (context.symbols.diagnostics.full()) return true;  // only counted, and not worth the search
+  if (context.symbols.diagnostics.full() || context.scopes.reports_all) return true;
   const uint64_t key = uint64_t{where} << 32 | keyOf(context, name).index;
   std::vector<Scopes::Reported>& reported = context.scopes.reported;
   const auto is_same = [&](const Scopes::Reported& known) { return known.key == key; };
@@ -303,11 +304,13 @@ bool firstTime(Context& context, uint32_t where, NameId name) {
 }  // namespace
 
 bool isFirstReport(Context& context, NameId name) {
-  if (context.tree().lost_names || isBroken(context, context.pou)) return false;
+  const bool is_lost = context.tree().lost_names && !context.scopes.reports_all;
+  if (is_lost || isBroken(context, context.pou)) return false;
   return firstTime(context, context.pou.index, name);
 }
 
 bool isFirstReportOfMember(Context& context, TypeId record, NameId name) {
+  if (context.scopes.reports_all) return true;
   const NamedType* named = context.scopes.named(context.types().resolve(record));
   if (named != nullptr && (isBroken(context, named->pou) || context.tree().lost_names)) return false;
   noteEffect(context);  // another body may name it too
@@ -327,7 +330,8 @@ bool isCallable(const Context& context, Entity found) {
 }
 
 std::string_view nearestOf(Context& context, NameId written, bool callable) {
-  if (context.symbols.diagnostics.full()) return {};  // the message is not printed, and the search is slow
+  const bool is_read = !context.symbols.diagnostics.full() && !context.scopes.reports_all;
+  if (!is_read) return {};  // the message is not printed, and the search is slow
   if (const std::string_view elsewhere = nameElsewhere(context, keyOf(context, written)); !elsewhere.empty())
     return elsewhere;
   std::vector<std::string_view> candidates;

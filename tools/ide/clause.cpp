@@ -21,6 +21,12 @@ constexpr std::array<std::string_view, 9> kBeginsStatement = {"IF",     "CASE", 
                                                               "RETURN", "EXIT", "JMP", "CONTINUE"};
 constexpr std::array<std::string_view, 7> kOperators = {"AND", "OR", "XOR", "MOD", "AND_THEN", "OR_ELSE", "NOT"};
 
+// The sign of `TOD#12:30:01`.
+bool isInTime(std::string_view source, const Unit& sign) {
+  const auto is_digit = [&](size_t at) { return at < source.size() && source[at] >= '0' && source[at] <= '9'; };
+  return sign.begin > 0 && is_digit(sign.begin - 1) && is_digit(sign.end);
+}
+
 bool isEnd(std::string_view word) { return upper(word).starts_with("END_"); }
 
 class ClauseReader {
@@ -50,7 +56,7 @@ class ClauseReader {
       if (text == ";" || (is_name && (isOneOf(text, kBeforeStatement) || isEnd(text)))) return at + 1;
       if (is_name && sameIdentifier(text, "OF")) return at + 1;
       const bool assigns = at + 1 < cursor_.units.size() && cursor_.text(at + 1) == "=";
-      if (text == ":" && !assigns) return at + 1;
+      if (text == ":" && !assigns && !isInTime(cursor_.source, cursor_.units[at])) return at + 1;
     }
     return std::min(context_.body, cursor_.units.size());
   }
@@ -92,7 +98,9 @@ class ClauseReader {
     if (text == ";") return true;
     const bool is_later = isOnLaterLine(last, unit.begin);
     if (is_first && is_later) return true;
-    if (text == ":" && !cursor_.source.substr(unit.end).starts_with('=') && isInLabel()) return true;
+    if (text == ":" && !cursor_.source.substr(unit.end).starts_with('=') && isInLabel() &&
+        !isInTime(cursor_.source, unit))
+      return true;
     if (unit.kind != UnitKind::Name) return false;
     if (isEnd(text) || isOneOf(text, kEndsClause) || (is_later && isOneOf(text, kBeginsStatement))) return true;
     return is_first && !isOneOf(text, kOperators) && context_.writes == Writes::Statement;  // of the next statement
@@ -155,7 +163,7 @@ class ClauseReader {
     for (Unit unit = scanner.nextCode(); unit.kind != UnitKind::End; unit = scanner.nextCode()) {
       const std::string_view text = scanner.textOf(unit);
       if (text == ";" || text == "(" || text == "=") return false;
-      if (text == ":") return !cursor_.source.substr(unit.end).starts_with('=');
+      if (text == ":" && !isInTime(cursor_.source, unit)) return !cursor_.source.substr(unit.end).starts_with('=');
     }
     return false;
   }

@@ -115,16 +115,38 @@ class Completer : Offers {
 
   // ---- declarations
 
+  // After EXTENDS and IMPLEMENTS.
+  void bases() {
+    const bool is_interface = base_word_ == "IMPLEMENTS" || isDeclared("INTERFACE");
+    const PouKind kind = is_interface          ? PouKind::Interface
+                         : isDeclared("CLASS") ? PouKind::Class
+                                               : PouKind::FunctionBlock;
+    const auto isBase = [&](Entity entity) {
+      if (entity.entityKind() == EntityKind::Type) return isDeclared("TYPE") && isType(entity);
+      return entity.entityKind() == EntityKind::Pou && project_.pous[entity.index].kind == kind && isType(entity) &&
+             entity.index != cursor_.pou.index;
+    };
+    visible(isBase, [&](NameId name, Entity entity) { addEntity(name, entity, kGlobal); });
+    libraryNames([&](const LibraryUse& use) {
+      return use.kind == (is_interface ? LibraryKind::Interface : LibraryKind::Block);
+    });
+  }
+
   void types() {
+    for (size_t back = 0; back < cursor_.units.size(); ++back) {
+      const std::string word = upper(cursor_.before(back));
+      if (word == "EXTENDS" || word == "IMPLEMENTS") base_word_ = word;
+      if (!base_word_.empty() || (cursor_.before(back) != "," && back % 2 == 0)) break;
+    }
+    if (!base_word_.empty()) return bases();
     for (const Word& word : ide::words())
       if (word.kind == WordKind::Type && matches(word.spelling))
         add(std::string(word.spelling), CompletionKind::Type, kDeclared);
     snippets(kTypes, CompletionKind::Snippet);
     visible([&](Entity entity) { return isType(entity); },
             [&](NameId name, Entity entity) { addEntity(name, entity, kGlobal); });
-    libraryNames([](std::string_view word) {
-      return word == "FUNCTION_BLOCK" || word == "TYPE" || word == "CLASS" || word == "INTERFACE";
-    });
+    libraryNames(
+        [](const LibraryUse& use) { return use.kind != LibraryKind::Function && use.kind != LibraryKind::Other; });
   }
 
   void programs() {
@@ -145,12 +167,6 @@ class Completer : Offers {
     const sema::Pou& pou = project_.pous[entity.index];
     if ((pou.pragmas.test_only || pou.pragmas.replaces) && !isInTest()) return false;
     return pou.record && pou.kind != PouKind::Program;
-  }
-
-  bool isInTest() const {
-    if (!cursor_.pou) return false;
-    const sema::Pou::Pragmas& pragmas = project_.pou(cursor_.pou).pragmas;
-    return pragmas.test || pragmas.test_only || pragmas.replaces;
   }
 
   // ---- statements
@@ -179,13 +195,15 @@ class Completer : Offers {
       }
       closers(branches);
     }
-    libraryNames([](std::string_view word) { return word == "FUNCTION"; });
+    if (!clause_ || clause_->ends_here || followsParenthesis())
+      libraryNames([](const LibraryUse& use) { return use.kind == LibraryKind::Function; });
   }
 
   // What a statement may begin with.
   bool isInStatement(Entity entity) const {
     const EntityKind kind = entity.entityKind();
     if (kind == EntityKind::EnumValue || kind == EntityKind::Type) return false;
+    if (isFollowedBy("(") && !isCallable(entity)) return false;
     if (kind == EntityKind::Var) return !project_.vars[entity.index].constant;
     if (kind == EntityKind::Pou) {
       const PouKind pou = project_.pous[entity.index].kind;
@@ -268,6 +286,7 @@ class Completer : Offers {
     const bool is_argument = context_.call && context_.call->is_at_beginning;
     if (is_argument) pins(*context_.call);
     if (isPinFollowing()) return;  // the name of a pin or of a field
+    if (isFollowedBy("#")) typesOfLiterals();
     items(context_.expected, true);
     const auto isListed = [&](Entity entity) {  // by items()
       return entity.entityKind() == EntityKind::EnumValue && context_.expected &&
@@ -289,14 +308,35 @@ class Completer : Offers {
           item.key = word;
         }
     if (!context_.expected || wanted == types::TypeKind::Bool || types::TypeTable::isBits(wanted))
-      partialWords({"NOT"});
-    libraryNames([](std::string_view word) { return word == "FUNCTION"; });
+      complement(types::TypeTable::isBits(wanted) ? "0" : "FALSE");
+    if (!isFollowedBy("#."))
+      libraryNames([](const LibraryUse& use) { return use.kind == LibraryKind::Function && use.has_result; });
+  }
+
+  void complement(const char* value) {
+    if (!matches("NOT")) return;
+    CompletionItem& item = add("NOT", CompletionKind::Keyword, kWord);
+    item.insert = std::string("NOT ${1:") + value + "}";
+    item.is_snippet = true;
+    item.fit = Fit::Tried;
+    item.key = "NOT";
+  }
+
+  // The type of a literal or an item: `|#5`.
+  void typesOfLiterals() {
+    for (const Word& word : ide::words()) {
+      if (word.kind != WordKind::Type || !matches(word.spelling)) continue;
+      CompletionItem& item = add(std::string(word.spelling), CompletionKind::Type, kDeclared);
+      item.fit = Fit::Tried;
+      item.key = word.spelling;
+    }
   }
 
   // A value, or what leads to one: an instance, a list of globals, a type of enumerations.
   bool isInExpression(Entity entity) const {
     if (isFollowedBy("#"))
       return entity.entityKind() == EntityKind::Type && !isInternal(entity) && hasItemAfter(entity);
+    if (isFollowedBy("(") && !isCallable(entity)) return false;
     switch (entity.entityKind()) {
       case EntityKind::Pou: {
         const sema::Pou& pou = project_.pous[entity.index];
@@ -314,6 +354,21 @@ class Completer : Offers {
       case EntityKind::Error: break;
     }
     return false;
+  }
+
+  bool isCallable(Entity entity) const {
+    PouId callee;
+    if (entity.entityKind() == EntityKind::Pou) callee = {entity.index};
+    if (entity.entityKind() == EntityKind::Var || entity.entityKind() == EntityKind::Program)
+      callee = scope_.blockOf(scope_.recordOf(scope_.typeOf(entity)));
+    if (!callee) return false;
+    std::vector<std::string> pins;
+    for (const VarId pin : scope_.pinsOf(callee)) {
+      pins.push_back(text(project_.var(pin).name));
+      for (const NameId alias : project_.var(pin).pragmas.aliases) pins.push_back(text(alias));
+    }
+    const bool is_extensible = project_.pou(callee).extensible || project_.pou(callee).generic;
+    return takesArguments(pins, is_extensible);
   }
 
   // `|#Green`
@@ -335,7 +390,8 @@ class Completer : Offers {
     if (context_.needs == Needs::Lvalue && (!is_var || project_.vars[entity.index].constant)) return false;
     if (context_.needs == Needs::Selector) return !is_item && (!is_plain || types::TypeTable::isInteger(kind));
     const types::TypeKind wanted = project_.types.plainKind(context_.expected);
-    const bool is_value = is_var || is_item || entity.entityKind() == EntityKind::Property;
+    const bool is_result = entity.entityKind() == EntityKind::Pou && !types::TypeTable::isGeneric(kind);
+    const bool is_value = is_var || is_item || is_result || entity.entityKind() == EntityKind::Property;
     if (!context_.expected || !is_value || !is_plain || !types::TypeTable::isElementary(wanted)) return true;
     return canBe(scope_.typeOf(entity));
   }
@@ -383,6 +439,14 @@ class Completer : Offers {
     if (sameIdentifier(block, "CASE")) words({"OF"});
   }
 
+  // The declaration around the cursor begins with this word.
+  bool isDeclared(std::string_view word) const {
+    return std::any_of(cursor_.units.begin(), cursor_.units.end(), [&](const Unit& unit) {
+      return sameIdentifier(cursor_.source.substr(unit.begin, unit.end - unit.begin), word);
+    });
+  }
+
+  std::string base_word_;  // EXTENDS or IMPLEMENTS, which the name at the cursor belongs to
   Following following_;
   bool only_constants_ = false;  // the label of a branch
 };
@@ -397,10 +461,10 @@ Completion codeOrNotation(const View& view, const LibraryIndex& libraries, const
     const Notation notation = notationAt(view, cursor);
     const bool is_target = notation.place == NotationPlace::Target;
     context.expected = notation.expected;
+    if (!notation.clause.before.empty() || !notation.clause.after.empty()) clause = notation.clause;
     if (!is_target && notation.place != NotationPlace::Value)
       return completionInNotation(view, libraries, cursor, context, notation);
-    clause = notation.clause;
-    if (context.writes != Writes::Member) {
+    if (context.writes != Writes::Member && context.writes != Writes::Item && context.writes != Writes::Operator) {
       context.writes = Writes::Expression;
       context.needs = is_target ? Needs::Lvalue : Needs::Any;
     }

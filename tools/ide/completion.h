@@ -50,8 +50,10 @@ struct CompletionItem {
   bool is_snippet = false;  // `insert` has places to fill in: ${1:IN}
   uint8_t rank = 9;         // the smaller the better
   Fit fit = Fit::Whole;
-  std::string key;            // of what is tried: those of one key are good or bad together
-  std::string documentation;  // of what is not an entity
+  std::string key;                // of what is tried: those of one key are good or bad together
+  std::string tried;              // in its place; empty: itself
+  bool is_tried_in_copy = false;  // the trial reads what the project has not read yet
+  std::string documentation;      // of what is not an entity
   Entity entity;
   const LibraryName* library = nullptr;
 };
@@ -60,16 +62,17 @@ struct Completion {
   bool is_incomplete = false;  // more letters find more
   FileRange replaced;          // what of the name is typed already
 };
-// Workspace::errorsOf and Workspace::goodTypes.
+// Workspace::errorsOf, Workspace::errorsInCopy and Workspace::goodTypes.
 class CompletionTrial {
  public:
   virtual ~CompletionTrial() = default;
-  virtual std::optional<std::vector<std::string>> errorsOf(PouId pou, const std::vector<std::string>& statements) = 0;
+  virtual std::optional<std::vector<std::string>> errorsOf(PouId pou, const std::vector<std::string>& statements,
+                                                           bool in_copy) = 0;
   virtual std::optional<std::string> goodTypes(const workspace::Analysis::TypeTrial& trial) = 0;
 };
 
-// With no letter typed only what makes a program, as far as a trial can tell; with the first letter also the rest that
-// the place takes, as last.
+// What makes a program, as far as a trial can tell. Names of libraries come with the first letter, and the rest that
+// the place takes where nothing that begins so makes a program.
 Completion completionsAt(const View& view, const LibraryIndex& libraries, FileId file, uint32_t byte,
                          CompletionTrial& trial);
 

@@ -113,6 +113,12 @@ class NotationCompleter : Offers {
       item.entity = Entity::of(EntityKind::Var, pin.index);
       item.detail = project_.types.toString(project_.var(pin).type);
       if (is_list && !is_signed) item.fit = Fit::Part;
+      if (item.fit == Fit::Part || at.clause.before.empty()) continue;
+      item.fit = Fit::Tried;
+      item.key = name;
+      if (is_list) continue;
+      item.tried = at.box.empty() ? defaults_.typedLiteralOf(project_.var(pin).type) : at.box + "." + name;
+      if (item.tried.empty()) item.fit = Fit::Whole;
     }
   }
 

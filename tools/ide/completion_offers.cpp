@@ -152,7 +152,7 @@ bool Offers::isOfChart(Entity entity) const {
 
 bool Offers::isHidden(NameId name, Entity entity) const {
   const std::string_view written = view_.names().string(name);
-  if (isMade(written) && isOfChart(entity)) return true;
+  if ((isMade(written) && isOfChart(entity)) || written.find("__") != std::string_view::npos) return true;
   if (entity.entityKind() == EntityKind::GlobalList) {
     const FileRange at = view_.bytesInFile(project_.global_lists[entity.index].loc, 1);
     return !at || !view_.sources().displayPath(at.file).starts_with('/');
@@ -267,19 +267,77 @@ void Offers::ofLibrary(std::string_view library) {
     if (sameIdentifier(name.library, library) && matches(name.name)) addLibraryName(name);
 }
 
+bool Offers::isWhole(std::string_view library) {
+  if (library_files_.empty())
+    for (const sema::LibraryFile& file : project_.options.libraries) ++library_files_[file.library];
+  return library_files_[library] >= libraries_.filesOf(library);
+}
+
 void Offers::addLibraryName(const LibraryName& name) {
-  const std::string word = firstWord(name.source.substr(name.begin, name.end - name.begin));
-  const bool is_function = word == "FUNCTION";
-  CompletionItem& item = add(std::string(name.name),
-                             is_function      ? CompletionKind::Function
-                             : word == "TYPE" ? CompletionKind::Type
-                                              : CompletionKind::Block,
-                             kLibrary);
+  const LibraryUse& use = libraries_.useOf(name);
+  const CompletionKind kinds[] = {CompletionKind::Function, CompletionKind::Block, CompletionKind::Interface,
+                                  CompletionKind::Type, CompletionKind::Constant};
+  CompletionItem& item = add(std::string(name.name), kinds[static_cast<size_t>(use.kind)], kLibrary);
   item.detail = name.library;
   item.library = &name;
-  if (!is_function || followsParenthesis()) return;
-  item.insert = std::string(name.name) + "($1)";
+  const bool is_member = context_.writes == Writes::Member && clause_;
+  if (use.kind == LibraryKind::Function) libraryFunction(item, use);
+  if (!is_member || item.fit == Fit::Part) return;
+  item.fit = Fit::Tried;
+  item.key = "l" + item.label;
+  item.tried.clear();
+  item.is_tried_in_copy = true;
+}
+
+// A call whose inputs are literals of their types. It is good where a literal of the type of its result is.
+void Offers::libraryFunction(CompletionItem& item, const LibraryUse& use) const {
+  if (use.is_for_tests && !isInTest()) item.fit = Fit::Part;
+  if (followsParenthesis()) {
+    if (!takesArguments(use.pins, use.is_extensible)) item.fit = Fit::Part;
+    if (item.fit != Fit::Part && clause_) {
+      item.fit = Fit::Tried;
+      item.key = "l" + item.label;
+      item.is_tried_in_copy = true;
+    }
+    return;
+  }
   item.is_snippet = true;
+  item.insert = use.call.empty() ? item.label + "($1)" : use.call;
+  if (use.call.empty()) item.fit = Fit::Part;
+  if (isStatement()) {
+    item.insert += ';';
+  } else if (clause_ && item.fit != Fit::Part) {
+    item.fit = use.result.empty() ? Fit::Part : Fit::Tried;
+    item.key = "l" + use.result;
+    item.tried = use.result;
+  }
+}
+
+bool Offers::takesArguments(const std::vector<std::string>& pins, bool is_extensible) const {
+  Scanner scanner(cursor_.source);
+  scanner.moveTo(cursor_.offset);
+  size_t count = 0, depth = 0;
+  std::string_view last;
+  for (Unit unit = scanner.nextCode(); unit.kind != UnitKind::End; unit = scanner.nextCode()) {
+    const std::string_view text = scanner.textOf(unit);
+    if (text == ";") break;
+    if (text == "(") ++depth;
+    if (depth == 1 && (text == "(" || text == ",")) ++count;
+    if (text == ")" && last == "(" && depth == 1) count = 0;
+    if (text == ")" && --depth == 0) break;
+    const char next = unit.end < cursor_.source.size() ? cursor_.source[unit.end] : '\0';
+    const bool is_sign = (text == ":" && next == '=') || (text == "=" && next == '>');
+    const auto is_pin = [&](const std::string& pin) { return sameIdentifier(pin, last); };
+    if (depth == 1 && is_sign && std::none_of(pins.begin(), pins.end(), is_pin)) return false;
+    last = text;
+  }
+  return is_extensible || count <= pins.size();
+}
+
+bool Offers::isInTest() const {
+  if (!cursor_.pou) return false;
+  const sema::Pou::Pragmas& pragmas = project_.pou(cursor_.pou).pragmas;
+  return pragmas.test || pragmas.test_only || pragmas.replaces;
 }
 
 }  // namespace rung::ide

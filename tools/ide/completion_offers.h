@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <unordered_set>
 
 #include "frontend/source/scanner.h"
@@ -16,6 +17,7 @@
 #include "tools/ide/completion.h"
 #include "tools/ide/completion_context.h"
 #include "tools/ide/default_values.h"
+#include "tools/ide/library_calls.h"
 #include "tools/ide/scope.h"
 #include "tools/ide/symbols.h"
 
@@ -85,13 +87,17 @@ class Offers {
     for (const CompletionItem& item : result_.items) seen.insert(foldedIdentifier(item.label));
     for (const LibraryName& name : libraries_.all()) {
       if (!sameIdentifier(name.name.substr(0, cursor_.prefix.size()), cursor_.prefix)) continue;
-      if ((name.standards & sema::bitOf(project_.options.dialect)) == 0) continue;
-      if (!test(firstWord(name.source.substr(name.begin, name.end - name.begin)))) continue;
+      if ((name.standards & sema::bitOf(project_.options.dialect)) == 0 || !isWhole(name.library)) continue;
+      if (!test(libraries_.useOf(name))) continue;
       if (seen.insert(foldedIdentifier(name.name)).second) addLibraryName(name);
     }
   }
   // Whether a value of one type can be where another is expected, roughly: what the check would refuse surely is out.
   bool fits(TypeId type) const;
+  // Whether what has these pins can be called with the arguments after the cursor, by their names and number.
+  bool takesArguments(const std::vector<std::string>& pins, bool is_extensible) const;
+  // The cursor is in a test, or in what only tests use.
+  bool isInTest() const;
   // Of the kind that is expected.
   bool canBe(TypeId type) const;
   // Declared in a library, which does not give the name to others.
@@ -137,10 +143,14 @@ class Offers {
   void addStep(const std::string& label, const std::string& insert, Entity entity, TypeId type, const std::string& key,
                uint8_t rank, int depth);
   void addLibraryName(const LibraryName& name);
+  // The project has all of the library: the memory of another machine may be missing.
+  bool isWhole(std::string_view library);
+  void libraryFunction(CompletionItem& item, const LibraryUse& use) const;
 
   bool is_open_ = false;  // a call lacks an argument
   size_t paths_ = 0;
-  int place_ = 0;  // the last place to fill in
+  std::unordered_map<std::string_view, uint32_t> library_files_;  // of the project
+  int place_ = 0;                                                 // the last place to fill in
 };
 
 }  // namespace rung::ide

@@ -37,6 +37,14 @@ std::string DefaultValues::variableOf(TypeId type) {
   return found == by_type_.end() ? std::string() : text(project_.var(found->second).name);
 }
 
+std::string DefaultValues::typedLiteralOf(TypeId type) const {
+  const std::string literal = literalOf(type);
+  const types::TypeKind kind = project_.types.plainKind(type);
+  const bool is_number = types::TypeTable::isNumber(kind) || types::TypeTable::isBits(kind);
+  if (literal.empty() || !is_number || literal == "FALSE" || types::TypeTable::isGeneric(kind)) return literal;
+  return project_.types.toString(types::idOf(kind)) + "#" + literal;
+}
+
 std::string DefaultValues::literalOf(TypeId type) const {
   using types::TypeKind;
   const TypeId of = project_.types.resolve(type);

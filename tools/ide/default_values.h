@@ -19,6 +19,8 @@ class DefaultValues {
   // Of a pin of a call: a variable with the name of the pin, else a literal, else any variable. Empty: there is none.
   std::string argumentFor(VarId pin);
   std::string literalOf(TypeId type) const;
+  // `REAL#0.0`; empty where there is none.
+  std::string typedLiteralOf(TypeId type) const;
   // One that can be written to; empty: there is none.
   std::string variableOf(TypeId type);
 

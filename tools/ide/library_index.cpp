@@ -3,6 +3,7 @@
 
 #include "frontend/source/names.h"
 #include "sema/declarations/libraries.h"
+#include "tools/ide/library_calls.h"
 
 namespace rung::ide {
 
@@ -11,6 +12,7 @@ LibraryIndex::LibraryIndex(const driver::ProjectOptions& options) : libraries_(s
   static_cast<void>(libraries_->load(options));
   for (const sema::LibraryFile& file : libraries_->files()) {
     if (std::string_view(file.library).starts_with("__")) continue;
+    ++files_[file.library];
     for (const sema::IndexedBlock& block : sema::indexLibrary(file.source))
       for (const std::string_view name : block.names) {
         if (name.starts_with("__")) continue;
@@ -18,6 +20,19 @@ LibraryIndex::LibraryIndex(const driver::ProjectOptions& options) : libraries_(s
         names_.push_back({name, file.library, file.source, block.begin, block.end, block.standards});
       }
   }
+}
+
+LibraryIndex::~LibraryIndex() = default;
+
+uint32_t LibraryIndex::filesOf(std::string_view library) const {
+  const auto found = files_.find(library);
+  return found == files_.end() ? 0 : found->second;
+}
+
+const LibraryUse& LibraryIndex::useOf(const LibraryName& name) const {
+  std::unique_ptr<LibraryUse>& use = uses_[&name];
+  if (!use) use = std::make_unique<LibraryUse>(ide::useOf(name));
+  return *use;
 }
 
 const LibraryName* LibraryIndex::find(std::string_view name, Dialect dialect) const {

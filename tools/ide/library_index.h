@@ -21,17 +21,26 @@ struct LibraryName {
   uint8_t standards;        // the dialects that have the name, as bits
 };
 
+struct LibraryUse;  // library_calls.h
+
 class LibraryIndex {
  public:
   explicit LibraryIndex(const driver::ProjectOptions& options);
+  ~LibraryIndex();
 
   const std::vector<LibraryName>& all() const { return names_; }
   // The first of this name that the dialect has; null: none.
   const LibraryName* find(std::string_view name, Dialect dialect) const;
+  // How many files a library has.
+  uint32_t filesOf(std::string_view library) const;
+  // useOf() of one of the names, which is read once.
+  const LibraryUse& useOf(const LibraryName& name) const;
 
  private:
   std::unique_ptr<driver::LibrarySet> libraries_;
   std::vector<LibraryName> names_;
+  std::unordered_map<std::string_view, uint32_t> files_;  // by library
+  mutable std::unordered_map<const LibraryName*, std::unique_ptr<LibraryUse>> uses_;
   std::unordered_map<std::string, std::vector<uint32_t>> by_name_;  // in lower case
 };
 

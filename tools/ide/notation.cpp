@@ -18,6 +18,7 @@ struct Element {
   std::string_view word() const { return token(0); }
   // `TON` and `timer` of `box 3 TON (timer) […]`
   std::string_view callee() const { return is(word(), "box") && token(2) != "(" ? token(2) : std::string_view(); }
+  // The operand when it is one name.
   std::string_view operand() const {
     const auto open = std::find(tokens.begin(), tokens.end(), "(");
     const auto end =
@@ -94,19 +95,20 @@ class NotationReader {
 
   // What precedes the cursor after the last `:=`.
   std::string afterSign() const {
-    std::string out;
-    for (size_t at = before_.tokens.size(); at-- > 1;) {
-      if (before_.tokens[at] == "=" && before_.tokens[at - 1] == ":") break;
-      out.insert(0, std::string(before_.tokens[at]) + " ");
-    }
-    return out;
+    size_t at = before_.tokens.size();
+    while (at > 1 && !(before_.tokens[at - 1] == "=" && before_.tokens[at - 2] == ":")) --at;
+    return joined(before_.tokens, at, before_.tokens.size()) + " ";
   }
 
   // ---- values
 
-  std::string joined(const std::vector<std::string_view>& tokens, size_t end) const {
+  // As they are in the source, on one line.
+  static std::string joined(const std::vector<std::string_view>& tokens, size_t begin, size_t end) {
     std::string out;
-    for (size_t at = 0; at < std::min(end, tokens.size()); ++at) out += " " + std::string(tokens[at]);
+    for (size_t at = begin; at < std::min(end, tokens.size()); ++at) {
+      const bool is_adjacent = at > begin && tokens[at - 1].data() + tokens[at - 1].size() == tokens[at].data();
+      out += (is_adjacent ? "" : " ") + std::string(tokens[at]);
+    }
     return out;
   }
   // The rest of what is in the parentheses around the cursor.
@@ -117,13 +119,14 @@ class NotationReader {
       if (after_.tokens[at] == "(" || after_.tokens[at] == "[") ++depth;
       if ((after_.tokens[at] == ")" || after_.tokens[at] == "]") && depth-- == 0) break;
     }
-    return joined(after_.tokens, at);
+    return joined(after_.tokens, 0, at);
   }
 
   void value(std::string before, TypeId expected) {
     notation_.place = NotationPlace::Value;
     notation_.expected = expected;
-    std::string after = pou_.body_kind == BodyKind::Sfc ? joined(after_.tokens, after_.tokens.size()) : restOfOperand();
+    std::string after =
+        pou_.body_kind == BodyKind::Sfc ? joined(after_.tokens, 0, after_.tokens.size()) : restOfOperand();
     notation_.clause = {"IF " + before, after + " THEN END_IF;", false, false};
   }
 
@@ -176,12 +179,20 @@ class NotationReader {
     notation_.callee = calleeOf(before_);
     givenPins();
     notation_.is_output = after_.token(0) == "=";
+    if (after_.token(0) != ":" || after_.token(1) != "=") return;
+    const std::string value = valueOf(after_, 2, kMostBoxes);
+    if (!value.empty()) notation_.clause = {calledBy(before_) + "(", " := " + value + ");", false, false};
   }
 
   void wire(std::string_view number) {
     const std::optional<Element> from = elementOf(number);
     notation_.callee = from ? calleeOf(*from) : PouId{};
-    if (notation_.callee) notation_.place = NotationPlace::Output;
+    if (!notation_.callee) return;
+    notation_.place = NotationPlace::Output;
+    notation_.box = from->operand();
+    size_t sign = before_.tokens.size();
+    while (sign > 1 && !(before_.token(sign - 1) == "=" && before_.token(sign - 2) == ":")) --sign;
+    if (sign > 1) notation_.clause = readerAt(before_, sign);
   }
 
   PouId calleeOf(const Element& element) const {
@@ -225,8 +236,7 @@ class NotationReader {
   }
 
   void operand(size_t open) {
-    std::string before;
-    for (size_t at = open + 1; at < before_.tokens.size(); ++at) before += std::string(before_.tokens[at]) + " ";
+    const std::string before = joined(before_.tokens, open + 1, before_.tokens.size());
     const std::string_view word = before_.word();
     if (is(word, "contact")) return value(before, types::kBool);
     if (is(word, "coil")) return target(before, types::kBool, "TRUE");
@@ -235,6 +245,11 @@ class NotationReader {
     if (is(word, "box")) {
       notation_.place = NotationPlace::Instance;
       notation_.callee = calleeOf(before_);
+      notation_.box = before_.callee();
+      Element whole = before_;
+      whole.tokens.insert(whole.tokens.end(), after_.tokens.begin(), after_.tokens.end());
+      const std::string call = callOf(whole, {}, kMostBoxes);
+      notation_.clause = {{}, call.substr(call.find('(')) + ");", false, false};
     }
   }
 
@@ -245,32 +260,85 @@ class NotationReader {
     notation_.clause = {before, rest + " := " + source + ";", false, false};
   }
 
-  // Of `output 4 (|) := 3(Q)`, `timer.Q`; else a value that any type can hold.
+  // Of `output 4 (|) := 3(Q)`, `timer.Q`; else a value that many types can hold.
   std::string sourceOf() const {
-    for (size_t at = 0; at + 3 < after_.tokens.size(); ++at) {
+    for (size_t at = 0; at + 2 < after_.tokens.size(); ++at) {
       if (after_.tokens[at] != ":" || after_.tokens[at + 1] != "=") continue;
-      const std::optional<Element> from = elementOf(after_.tokens[at + 2]);
-      if (!from) break;
-      if (is(from->word(), "input") || is(from->word(), "contact")) return std::string(from->operand());
-      if (after_.tokens[at + 3] != "(") break;
-      const std::string_view pin = after_.token(at + 4);
-      if (!from->operand().empty()) return std::string(from->operand()) + "." + std::string(pin);
-      return valueOfPin(calleeOf(*from), pin);
+      const std::string value = valueOf(after_, at + 2, kMostBoxes);
+      return value.empty() ? "0" : value;
     }
     return "0";
+  }
+
+  // ---- boxes and wires as ST
+
+  std::string operandOf(const Element& element) const {
+    const auto open = std::find(element.tokens.begin(), element.tokens.end(), "(");
+    if (open == element.tokens.end()) return {};
+    size_t end = static_cast<size_t>(open - element.tokens.begin()) + 1, depth = 1;
+    const size_t begin = end;
+    for (; end < element.tokens.size(); ++end) {
+      if (element.tokens[end] == "(") ++depth;
+      if (element.tokens[end] == ")" && --depth == 0) break;
+    }
+    return joined(element.tokens, begin, end);
+  }
+
+  // The instance, or the function.
+  static std::string calledBy(const Element& box) {
+    return std::string(box.operand().empty() ? box.callee() : box.operand());
+  }
+
+  // Of the wire `3(Q)` that begins at a token; empty: it has no value that can be written.
+  std::string valueOf(const Element& reader, size_t at, int boxes) const {
+    const std::optional<Element> from = elementOf(reader.token(at));
+    if (!from || boxes == 0) return {};
+    if (is(from->word(), "contact")) return "FALSE";
+    if (is(from->word(), "input") || is(from->word(), "inout")) return operandOf(*from);
+    if (is(from->word(), "compose")) {
+      const TypeId type = scope_.typeOf(scope_.typeNamed(keyOf(from->token(2))));
+      return type ? DefaultValues(view_, cursor_.pou).variableOf(type) : std::string();
+    }
+    if (!is(from->word(), "box")) return {};
+    const std::string_view pin = reader.token(at + 1) == "(" ? reader.token(at + 2) : std::string_view();
+    if (!from->operand().empty()) return pin.empty() ? std::string() : calledBy(*from) + "." + std::string(pin);
+    const PouId callee = calleeOf(*from);
+    if (callee && scope_.project().pou(callee).kind == PouKind::Function && isResult(callee, pin))
+      return callOf(*from, {}, boxes - 1) + ")";
+    return valueOfPin(callee, pin);
+  }
+  bool isResult(PouId function, std::string_view pin) const {
+    const std::vector<VarId> pins = scope_.pinsOf(function);
+    return std::none_of(pins.begin(), pins.end(), [&](VarId of) {
+      return scope_.project().var(of).section == SectionKind::Output &&
+             is(view_.names().string(scope_.project().var(of).name), pin);
+    });
+  }
+
+  // `SUB(IN2 := ambient`: without one pin.
+  std::string callOf(const Element& box, std::string_view without, int boxes) const {
+    std::string out = calledBy(box) + "(";
+    bool is_first = true;
+    for (size_t at = 1; at + 3 < box.tokens.size(); ++at) {
+      if (box.tokens[at] != "[" && box.tokens[at] != ",") continue;
+      if (box.tokens[at + 2] != ":" || box.tokens[at + 3] != "=" || is(box.tokens[at + 1], without)) continue;
+      const std::string value = is(box.tokens[at + 1], "EN") ? std::string() : valueOf(box, at + 4, boxes);
+      if (value.empty()) continue;
+      out += (is_first ? "" : ", ") + std::string(box.tokens[at + 1]) + " := " + value;
+      is_first = false;
+    }
+    return out;
   }
 
   // Of the type of a pin.
   std::string valueOfPin(PouId callee, std::string_view name) const {
     for (const VarId pin : scope_.pinsOf(callee))
       if (is(view_.names().string(scope_.project().var(pin).name), name))
-        if (std::string value = DefaultValues(view_, cursor_.pou).literalOf(scope_.project().var(pin).type);
-            !value.empty())
-          return value;
-    return "0";
+        return DefaultValues(view_, cursor_.pou).typedLiteralOf(scope_.project().var(pin).type);
+    return {};
   }
 
-  // What reads `input 3 (|)`: a pin of an instance, an output.
+  // What reads `input 3 (|)`: a pin of a box, an output.
   void input(const std::string& before) {
     value(before, {});
     const std::string_view number = before_.token(1);
@@ -278,34 +346,46 @@ class NotationReader {
       for (size_t at = 2; at < element.tokens.size(); ++at) {
         const bool begins_wire = is(element.tokens[at - 1], "OR") || element.tokens[at - 1] == "=";
         if (element.tokens[at] != number || !begins_wire) continue;
-        readBy(element, at, before);
+        Clause clause = readerAt(element, at);
+        if (clause.before.empty()) continue;
+        clause.before += before;
+        clause.after = restOfOperand() + clause.after;
+        notation_.clause = std::move(clause);
         return true;
       }
       return false;
     });
   }
 
-  void readBy(const Element& reader, size_t wire, const std::string& before) {
-    const std::string rest = restOfOperand();
-    if (is(reader.word(), "output")) {
-      notation_.clause = {std::string(reader.operand()) + " := " + before, rest + ";", false, false};
-    } else if (is(reader.word(), "coil") || is(reader.word(), "contact")) {
+  // The statement around the wire that begins at a token. Notes the type that is expected.
+  Clause readerAt(const Element& reader, size_t wire) {
+    if (is(reader.word(), "output")) return {operandOf(reader) + " := ", ";", false, false};
+    if (is(reader.word(), "coil") || is(reader.word(), "contact")) {
       notation_.expected = types::kBool;
-    } else if (is(reader.word(), "box")) {
-      size_t at = wire;
-      while (at > 0 && reader.tokens[at] != "[" && reader.tokens[at] != ",") --at;
-      const std::string pin(reader.token(at + 1));
-      const PouId callee = calleeOf(reader);
-      const std::string called(reader.operand().empty() ? reader.callee() : reader.operand());
-      for (const VarId var : scope_.pinsOf(callee)) {
-        if (!is(view_.names().string(scope_.project().var(var).name), pin)) continue;
-        const TypeId type = scope_.project().var(var).type;
-        if (!types::TypeTable::isGeneric(scope_.project().types.kind(type))) notation_.expected = type;
-        if (!reader.operand().empty())
-          notation_.clause = {called + "(" + pin + " := " + before, rest + ");", false, false};
-      }
+      return {"IF ", " THEN END_IF;", false, false};
     }
+    size_t at = std::min(wire, reader.tokens.size());
+    while (at > 0 && reader.token(at) != "[" && reader.token(at) != ",") --at;
+    const std::string_view pin = reader.token(at + 1);
+    if (is(reader.word(), "compose")) {  // a member of a structure
+      const TypeId type = scope_.typeOf(scope_.typeNamed(keyOf(reader.token(2))));
+      const std::string whole = type ? DefaultValues(view_, cursor_.pou).variableOf(type) : std::string();
+      if (whole.empty()) return {};
+      return {whole + "." + std::string(pin) + " := ", ";", false, false};
+    }
+    if (!is(reader.word(), "box")) return {};
+    for (const VarId var : scope_.pinsOf(calleeOf(reader))) {
+      const TypeId type = scope_.project().var(var).type;
+      const bool is_it = is(view_.names().string(scope_.project().var(var).name), pin);
+      if (is_it && !types::TypeTable::isGeneric(scope_.project().types.kind(type))) notation_.expected = type;
+    }
+    const std::string call = callOf(reader, pin, kMostBoxes);
+    return {call + (call.ends_with('(') ? "" : ", ") + std::string(pin) + " := ", ");", false, false};
   }
+
+  NameId keyOf(std::string_view name) const { return view_.names().key(view_.names().find(name)); }
+
+  static constexpr int kMostBoxes = 3;  // within each other
 
   const View& view_;
   const Cursor& cursor_;

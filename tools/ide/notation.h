@@ -26,11 +26,12 @@ enum class NotationPlace : uint8_t {
 
 struct Notation {
   NotationPlace place = NotationPlace::None;
-  Clause clause;                   // of a value or target
+  Clause clause;                   // of a value or target; of a pin or output where what it is wired to is known
   PouId callee;                    // none: not known
   TypeId expected;                 // none: any
   std::vector<std::string> given;  // pins that the box has already
   bool is_output = false;          // the pin has the sign of one after the cursor
+  std::string box;                 // whose output it is: the instance, empty: a function; of an instance what it calls
   std::string instance;            // of the box whose callee is asked for; empty: it has none
 };
 

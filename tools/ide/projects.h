@@ -68,6 +68,10 @@ class Projects {
                                                    const std::vector<std::string>& statements) const {
     return project.workspace_ == nullptr ? std::nullopt : project.workspace_->errorsOf(pou, statements);
   }
+  std::optional<std::vector<std::string>> errorsInCopy(const Project& project, sema::PouId pou,
+                                                       const std::vector<std::string>& statements) const {
+    return project.workspace_ == nullptr ? std::nullopt : project.workspace_->errorsInCopy(pou, statements);
+  }
   std::optional<std::string> goodTypes(const Project& project, const workspace::Analysis::TypeTrial& trial) const {
     return project.workspace_ == nullptr ? std::nullopt : project.workspace_->goodTypes(trial);
   }

@@ -14,14 +14,22 @@ auto found(const Table& table, Key key) -> typename Table::mapped_type {
   return entry == table.end() ? typename Table::mapped_type{} : entry->second;
 }
 
+template <class Id>
+Id at(const std::vector<Id>& list, uint32_t index) {
+  return index < list.size() ? list[index] : Id{};
+}
+
 // Declared in the source, not made by the compiler.
 bool isWritten(const sema::Var& var) { return var.name && var.loc && var.temporary == 0 && !var.sharing.copy_of; }
 
 }  // namespace
 
-Scope::Scope(const sema::Project& project) : project_(project) {
+Scope::Scope(const sema::Project& project)
+    : project_(project),
+      globals_(project.names.count()),
+      types_(project.names.count()),
+      blocks_(project.types.count()) {
   addPous();
-  addInstances();
   addVars();
   addTypes();
   addGlobals();
@@ -29,44 +37,75 @@ Scope::Scope(const sema::Project& project) : project_(project) {
 
 // ---- tables
 
+std::span<const uint32_t> Scope::OfTypes::of(uint32_t type) const {
+  if (type + 1 >= begin.size()) return {};
+  return std::span(all).subspan(begin[type], begin[type + 1] - begin[type]);
+}
+
+// Of the things 1 to `count` those that `typeOf` gives a type.
+template <class TypeOf>
+Scope::OfTypes Scope::ofTypes(uint32_t count, TypeOf typeOf) const {
+  OfTypes out;
+  out.begin.resize(project_.types.count() + 1);
+  for (uint32_t i = 1; i < count; ++i)
+    if (const TypeId type = typeOf(i)) ++out.begin[type.index + 1];
+  for (size_t type = 1; type < out.begin.size(); ++type) out.begin[type] += out.begin[type - 1];
+  out.all.resize(out.begin.back());
+  std::vector<uint32_t> next(out.begin.begin(), out.begin.end() - 1);
+  for (uint32_t i = 1; i < count; ++i)
+    if (const TypeId type = typeOf(i)) out.all[next[type.index]++] = i;
+  return out;
+}
+
 void Scope::addPous() {
   for (uint32_t i = 1; i < project_.pous.size(); ++i) {
     const sema::Pou& pou = project_.pous[i];
     if (pou.instance.of) continue;
     if (pou.decl) pous_.emplace(placeOf(project_.tree.decl(pou.decl).begin), PouId{i});
-    if (pou.loc && pou.object.accessor == sema::AccessorKind::None)
-      places_.emplace(placeOf(pou.loc), Entity::of(EntityKind::Pou, i));
-    if (pou.record) blocks_.emplace(pou.record.index, PouId{i});
+    if (pou.record && !blocks_[pou.record.index]) blocks_[pou.record.index] = PouId{i};
   }
-  for (uint32_t i = 1; i < project_.properties.size(); ++i) {
-    const sema::Property& property = project_.properties[i];
-    places_.emplace(placeOf(property.loc), Entity::of(EntityKind::Property, i));
-    for (const PouId accessor : {property.get, property.set})
+  for (uint32_t i = 1; i < project_.properties.size(); ++i)
+    for (const PouId accessor : {project_.properties[i].get, project_.properties[i].set})
       if (accessor) properties_.emplace(accessor.index, i);
-  }
-}
-
-void Scope::addInstances() {
-  for (uint32_t i = 0; i < project_.instances.size(); ++i)
-    if (project_.instances[i].loc)
-      places_.emplace(placeOf(project_.instances[i].loc), Entity::of(EntityKind::Program, i));
 }
 
 void Scope::addVars() {
-  for (uint32_t i = 1; i < project_.vars.size(); ++i) {
+  fields_ = ofTypes(static_cast<uint32_t>(project_.vars.size()), [&](uint32_t i) {
     const sema::Var& var = project_.vars[i];
-    if (!isWritten(var)) continue;
-    places_.emplace(placeOf(var.loc), Entity::of(EntityKind::Var, i));
-    if (var.record && !var.pou) fields_[var.record.index].push_back(VarId{i});
+    return isWritten(var) && !var.pou ? var.record : TypeId{};
+  });
+  items_ = ofTypes(static_cast<uint32_t>(project_.enum_values.size()),
+                   [&](uint32_t i) { return project_.enum_values[i].type; });
+}
+
+// The first declaration of a place counts.
+void Scope::findPlaces() const {
+  const auto add = [&](Loc loc, EntityKind kind, uint32_t index) {
+    places_.emplace(placeOf(loc), Entity::of(kind, index));
+  };
+  places_.reserve(project_.vars.size() + project_.pous.size());
+  for (uint32_t i = 1; i < project_.pous.size(); ++i) {
+    const sema::Pou& pou = project_.pous[i];
+    if (!pou.instance.of && pou.loc && pou.object.accessor == sema::AccessorKind::None)
+      add(pou.loc, EntityKind::Pou, i);
   }
-  for (uint32_t i = 1; i < project_.enum_values.size(); ++i) {
-    const sema::EnumValue& value = project_.enum_values[i];
-    places_.emplace(placeOf(value.loc), Entity::of(EntityKind::EnumValue, i));
-    items_[value.type.index].push_back(i);
-  }
+  for (uint32_t i = 1; i < project_.properties.size(); ++i) add(project_.properties[i].loc, EntityKind::Property, i);
+  for (uint32_t i = 0; i < project_.instances.size(); ++i)
+    if (project_.instances[i].loc) add(project_.instances[i].loc, EntityKind::Program, i);
+  for (uint32_t i = 1; i < project_.vars.size(); ++i)
+    if (isWritten(project_.vars[i])) add(project_.vars[i].loc, EntityKind::Var, i);
+  for (uint32_t i = 1; i < project_.enum_values.size(); ++i) add(project_.enum_values[i].loc, EntityKind::EnumValue, i);
+}
+
+void Scope::list(NameId name, Entity entity) {
+  listed_.emplace_back(name, entity);
+  if (Entity& known = globals_[keyOf(name).index]; !known) known = entity;
 }
 
 void Scope::addTypes() {
+  const auto addNamed = [&](NameId name, Entity entity) {
+    if (Entity& known = types_[keyOf(name).index]; !known) known = entity;
+  };
   for (uint32_t i = 1; i < project_.types.count(); ++i) {
     const types::TypeInfo& info = project_.types.info({i});
     const bool is_named = info.kind == types::TypeKind::Enum || info.kind == types::TypeKind::Subrange ||
@@ -75,9 +114,9 @@ void Scope::addTypes() {
         info.record_kind == types::RecordKind::Struct || info.record_kind == types::RecordKind::Union;
     if (!is_named || !info.name || (info.kind == types::TypeKind::Record && !is_structure)) continue;
     const Entity entity = Entity::of(EntityKind::Type, i);
-    types_.emplace(keyOf(info.name).index, entity);
-    if (info.shown_name) types_.emplace(keyOf(info.shown_name).index, entity);
-    listed_.emplace_back(info.name, entity);
+    addNamed(info.name, entity);
+    if (info.shown_name) addNamed(info.shown_name, entity);
+    list(info.name, entity);
   }
 }
 
@@ -86,24 +125,22 @@ void Scope::addGlobals() {
     const sema::Pou& pou = project_.pous[i];
     if (pou.owner || pou.instance.of || !pou.name) continue;
     const Entity entity = Entity::of(EntityKind::Pou, i);
-    listed_.emplace_back(pou.name, entity);
-    types_.emplace(keyOf(pou.name).index, entity);
+    list(pou.name, entity);
+    if (Entity& known = types_[keyOf(pou.name).index]; !known) known = entity;
   }
   for (uint32_t i = 1; i < project_.global_lists.size(); ++i) {
-    const sema::GlobalList& list = project_.global_lists[i];
-    if (!list.qualified_only)
-      for (const VarId var : list.vars)
-        if (isWritten(project_.var(var)))
-          listed_.emplace_back(project_.var(var).name, Entity::of(EntityKind::Var, var.index));
-    if (list.name) listed_.emplace_back(list.name, Entity::of(EntityKind::GlobalList, i));
+    const sema::GlobalList& of = project_.global_lists[i];
+    if (of.name && project_.names.string(of.name).ends_with("__texts")) continue;  // sema/bodies/literal_storage.h
+    if (!of.qualified_only)
+      for (const VarId var : of.vars)
+        if (isWritten(project_.var(var))) list(project_.var(var).name, Entity::of(EntityKind::Var, var.index));
+    if (of.name) list(of.name, Entity::of(EntityKind::GlobalList, i));
   }
   for (uint32_t i = 1; i < project_.enum_values.size(); ++i)
     if (!project_.types.info(project_.enum_values[i].type).qualified)
-      listed_.emplace_back(project_.enum_values[i].name, Entity::of(EntityKind::EnumValue, i));
+      list(project_.enum_values[i].name, Entity::of(EntityKind::EnumValue, i));
   for (uint32_t i = 0; i < project_.instances.size(); ++i)
-    if (project_.instances[i].name)
-      listed_.emplace_back(project_.instances[i].name, Entity::of(EntityKind::Program, i));
-  for (const auto& [name, entity] : listed_) globals_.emplace(keyOf(name).index, entity);
+    if (project_.instances[i].name) list(project_.instances[i].name, Entity::of(EntityKind::Program, i));
 }
 
 // ---- by place
@@ -113,7 +150,10 @@ uint32_t Scope::placeOf(Loc loc) const { return project_.sources.current(loc).of
 
 PouId Scope::pouOf(DeclId declaration) const { return found(pous_, placeOf(project_.tree.decl(declaration).begin)); }
 
-Entity Scope::declaredAt(Loc name) const { return found(places_, placeOf(name)); }
+Entity Scope::declaredAt(Loc name) const {
+  if (places_.empty()) findPlaces();
+  return found(places_, placeOf(name));
+}
 
 Loc Scope::locOf(Entity entity) const {
   switch (entity.entityKind()) {
@@ -181,8 +221,8 @@ void Scope::membersOfPou(PouId pou, bool with_locals, Visit visit) const {
 void Scope::membersOf(TypeId type, Visit visit) const {
   const TypeId record = recordOf(type);
   if (const PouId block = blockOf(record)) return membersOfPou(block, false, visit);
-  if (const auto fields = fields_.find(record.index); fields != fields_.end())
-    for (const VarId field : fields->second) visit(project_.var(field).name, Entity::of(EntityKind::Var, field.index));
+  for (const uint32_t field : fields_.of(record.index))
+    visit(project_.vars[field].name, Entity::of(EntityKind::Var, field));
 }
 
 void Scope::membersOf(Entity of, Visit visit) const {
@@ -192,9 +232,8 @@ void Scope::membersOf(Entity of, Visit visit) const {
         if (isWritten(project_.var(var))) visit(project_.var(var).name, Entity::of(EntityKind::Var, var.index));
       return;
     case EntityKind::Type:
-      if (const auto items = items_.find(of.index); items != items_.end())
-        for (const uint32_t item : items->second)
-          visit(project_.enum_values[item].name, Entity::of(EntityKind::EnumValue, item));
+      for (const uint32_t item : items_.of(of.index))
+        visit(project_.enum_values[item].name, Entity::of(EntityKind::EnumValue, item));
       return;
     case EntityKind::Pou:
       if (project_.pous[of.index].kind == PouKind::Program) return membersOfPou({of.index}, false, visit);
@@ -249,7 +288,7 @@ Entity Scope::lookUp(PouId from, NameId key) const {
     membersOfPou(from, true, first);
     if (!result && pou.owner) membersOfPou(pou.owner, true, first);
   }
-  return result ? result : found(globals_, key.index);
+  return result ? result : at(globals_, key.index);
 }
 
 Entity Scope::memberOf(Entity of, NameId key) const {
@@ -268,7 +307,7 @@ Entity Scope::memberOf(TypeId type, NameId key) const {
   return result;
 }
 
-Entity Scope::typeNamed(NameId key) const { return key ? found(types_, key.index) : Entity{}; }
+Entity Scope::typeNamed(NameId key) const { return at(types_, key.index); }
 
 // ---- types
 
@@ -308,11 +347,11 @@ TypeId Scope::recordOf(TypeId type) const {
   return is_object ? target : type;
 }
 
-PouId Scope::blockOf(TypeId type) const { return found(blocks_, type.index); }
+PouId Scope::blockOf(TypeId type) const { return at(blocks_, type.index); }
 
 bool Scope::hasMembers(TypeId type) const {
   const TypeId record = recordOf(type);
-  return blockOf(record) || fields_.count(record.index) != 0;
+  return blockOf(record) || !fields_.of(record.index).empty();
 }
 
 }  // namespace rung::ide

@@ -4,6 +4,7 @@
 // that the check has not resolved: in lines that are not finished, and in lists of what could be written.
 #pragma once
 
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -60,27 +61,36 @@ class Scope {
 
  private:
   template <class Id>
-  using ByKey = std::unordered_map<uint32_t, Id>;
+  using ByKey = std::vector<Id>;  // by the index of what is known to be small in number: a name, a type
+  // The things of each type, in order.
+  struct OfTypes {
+    std::vector<uint32_t> begin;  // by type, and the end
+    std::vector<uint32_t> all;
+    std::span<const uint32_t> of(uint32_t type) const;
+  };
+  template <class TypeOf>
+  OfTypes ofTypes(uint32_t count, TypeOf typeOf) const;
 
   void addPous();
-  void addInstances();
   void addVars();
   void addGlobals();
   void addTypes();
+  void list(NameId name, Entity entity);
+  void findPlaces() const;
   NameId keyOf(NameId name) const { return project_.names.key(name); }
   uint32_t placeOf(Loc loc) const;
   void membersOfPou(PouId pou, bool with_locals, Visit visit) const;
 
   const sema::Project& project_;
-  std::unordered_map<uint32_t, PouId> pous_;                   // by where the declaration begins
-  std::unordered_map<uint32_t, Entity> places_;                // by the offset of the declared name
-  ByKey<Entity> globals_;                                      // visible in the whole project
-  ByKey<Entity> types_;                                        // types and blocks
-  std::unordered_map<uint32_t, PouId> blocks_;                 // by the type of their instances
-  std::unordered_map<uint32_t, uint32_t> properties_;          // by accessor
-  std::unordered_map<uint32_t, std::vector<VarId>> fields_;    // of structures, by type
-  std::unordered_map<uint32_t, std::vector<uint32_t>> items_;  // of enumerations, by type: enum_values
-  std::vector<std::pair<NameId, Entity>> listed_;              // all globals, in order
+  std::unordered_map<uint32_t, PouId> pous_;             // by where the declaration begins
+  mutable std::unordered_map<uint32_t, Entity> places_;  // by the offset of the declared name; made when asked for
+  ByKey<Entity> globals_;                                // by name: visible in the whole project
+  ByKey<Entity> types_;                                  // by name: types and blocks
+  ByKey<PouId> blocks_;                                  // by the type of their instances
+  std::unordered_map<uint32_t, uint32_t> properties_;    // by accessor
+  OfTypes fields_;                                       // of structures: vars
+  OfTypes items_;                                        // of enumerations: enum_values
+  std::vector<std::pair<NameId, Entity>> listed_;        // all globals, in order
 };
 
 }  // namespace rung::ide

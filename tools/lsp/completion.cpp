@@ -65,9 +65,10 @@ class ProjectTrial final : public ide::CompletionTrial {
   // `is_on`: there is a trial.
   ProjectTrial(const ide::Projects& projects, const ide::Project& project, bool is_on)
       : projects_(projects), project_(project), is_on_(is_on) {}
-  std::optional<std::vector<std::string>> errorsOf(sema::PouId pou,
-                                                   const std::vector<std::string>& statements) override {
-    return is_on_ ? projects_.errorsOf(project_, pou, statements) : std::nullopt;
+  std::optional<std::vector<std::string>> errorsOf(sema::PouId pou, const std::vector<std::string>& statements,
+                                                   bool in_copy) override {
+    if (!is_on_) return std::nullopt;
+    return in_copy ? projects_.errorsInCopy(project_, pou, statements) : projects_.errorsOf(project_, pou, statements);
   }
   std::optional<std::string> goodTypes(const workspace::Analysis::TypeTrial& trial) override {
     return is_on_ ? projects_.goodTypes(project_, trial) : std::nullopt;

@@ -53,7 +53,10 @@ DeclId Analysis::trialBody(sema::PouId id, const std::string& statements, FileId
   file = of.sources.add("trial", "PROGRAM trial\n" + statements + "END_PROGRAM\n");
   if (!file) return {};
   of.diagnostics.max_errors = UINT32_MAX;
+  const bool lost_names = of.tree.lost_names;
   const FileUnit unit = text::parseFile(of.tree, of.names, of.sources, file, of.options.dialect, of.diagnostics);
+  of.tree.lost_names = lost_names;
+  of.tree.files.pop_back();
   const std::span<const DeclId> parsed = of.tree.list(unit.decls);
   if (parsed.empty() || of.tree.kind(parsed[0]) != DeclKind::Pou) return {};
   PouDecl pou = of.tree.as<PouDecl>(decl);
@@ -62,22 +65,51 @@ DeclId Analysis::trialBody(sema::PouId id, const std::string& statements, FileId
   return of.tree.add<DeclId>(pou);
 }
 
-std::vector<std::string> Analysis::errorsOf(sema::PouId id, const std::vector<std::string>& statements) {
-  driver::Compilation& of = compilation_;
-  std::vector<std::string> errors(statements.size());
-  std::string text;
-  for (const std::string& statement : statements) text += statement + "\n";
-  FileId file;
-  const DeclId body = of.checked ? trialBody(id, text, file) : DeclId{};
-  if (!body) return errors;
-  of.diagnostics.closeLines();
-  of.checked->tryBody({id, body});
-  for (const Diagnostic& diagnostic : of.diagnostics.all()) {
-    if (diagnostic.severity != Severity::Error || of.sources.fileOf(diagnostic.loc) != file) continue;
-    const SourceLocation at = of.sources.location(diagnostic.loc);
+// By their lines, the first of which is after that of the header.
+std::vector<std::string> Analysis::errorsIn(FileId file, size_t lines) const {
+  std::vector<std::string> errors(lines);
+  const Sources& sources = compilation_.sources;
+  for (const Diagnostic& diagnostic : compilation_.diagnostics.all()) {
+    if (diagnostic.severity != Severity::Error || sources.fileOf(diagnostic.loc) != file) continue;
+    const SourceLocation at = sources.location(diagnostic.loc);
     if (at.line >= 2 && at.line - 2 < errors.size())
       errors[at.line - 2] += std::to_string(at.column) + ":" + diagInfo(diagnostic.diag).code + " ";
   }
+  return errors;
+}
+
+bool Analysis::staysUsable(sema::PouId pou, const std::vector<std::string>& statements) const {
+  const auto has_address = [](const std::string& statement) { return statement.find('%') != std::string::npos; };
+  return compilation_.checked && compilation_.checked->canTryBody(pou) &&
+         std::none_of(statements.begin(), statements.end(), has_address);
+}
+
+std::vector<std::string> Analysis::errorsOf(sema::PouId id, const std::vector<std::string>& statements) {
+  driver::Compilation& of = compilation_;
+  std::vector<std::string> errors(statements.size());
+  if (!of.checked) return errors;
+  const bool is_kept = staysUsable(id, statements);
+  const uint32_t size = of.tree.size();
+  const size_t known = of.checked->knownBesideBodies(), said = of.diagnostics.all().size();
+  const std::vector<bool> eno_read_of = of.tree.eno_read_of;
+  const uint32_t most = of.diagnostics.max_errors;
+  std::string text;
+  for (const std::string& statement : statements) text += statement + "\n";
+  FileId file;
+  if (const DeclId body = trialBody(id, text, file)) {
+    of.diagnostics.closeLines();
+    is_kept ? of.checked->tryBodyForNow({id, body}) : of.checked->tryBody({id, body});
+    errors = errorsIn(file, statements.size());
+  }
+  if (!is_kept) return errors;
+  size_t at = 0;
+  of.diagnostics.retract([&](const Diagnostic& diagnostic) {
+    return at++ >= said && (diagnostic.reporter == 0 || diagnostic.reporter == id.index);
+  });
+  of.diagnostics.max_errors = most;
+  of.tree.eno_read_of = eno_read_of;
+  if (of.checked->knownBesideBodies() == known) of.tree.truncate(size);
+  if (file) of.sources.forget(file);
   return errors;
 }
 
@@ -90,9 +122,33 @@ size_t Analysis::errorsOf(const std::vector<sema::CheckedProject::NewBody>& bodi
   }));
 }
 
+// Of the declarations; kError: the type does not exist, or does not take the initial value.
+std::vector<TypeId> Analysis::typesOf(const TypeTrial& trial) {
+  driver::Compilation& of = compilation_;
+  std::vector<TypeId> types(trial.types.size(), types::kError);
+  std::string text = "PROGRAM trial VAR\n";
+  for (size_t i = 0; i < types.size(); ++i) text += "t" + std::to_string(i) + " : " + trial.types[i] + ";\n";
+  const FileId file = of.sources.add("trial", text + "END_VAR END_PROGRAM\n");
+  if (!file) return types;
+  of.diagnostics.max_errors = UINT32_MAX;
+  const FileUnit unit = text::parseFile(of.tree, of.names, of.sources, file, of.options.dialect, of.diagnostics);
+  const std::span<const DeclId> parsed = of.tree.list(unit.decls);
+  if (parsed.empty() || of.tree.kind(parsed[0]) != DeclKind::Pou) return types;
+  for (const DeclId section : of.tree.list(of.tree.as<PouDecl>(parsed[0]).sections))
+    for (const DeclId var : of.tree.list(of.tree.as<SectionDecl>(section).vars)) {
+      const uint32_t line = of.sources.location(of.tree.decl(var).loc).line;
+      if (line >= 2 && line - 2 < types.size()) types[line - 2] = of.checked->typeOfDeclaration(trial.pou, var);
+    }
+  const std::vector<std::string> errors = errorsIn(file, types.size());
+  for (size_t i = 0; i < types.size(); ++i)
+    if (!errors[i].empty()) types[i] = types::kError;
+  return types;
+}
+
 std::string Analysis::goodTypes(const TypeTrial& trial) {
   driver::Compilation& of = compilation_;
   if (!of.checked) return {};
+  const std::vector<TypeId> types = typesOf(trial);
   std::vector<sema::CheckedProject::NewBody> bodies;
   std::vector<FileId> files;
   for (const TypeTrial::Body& body : trial.bodies) {
@@ -102,13 +158,15 @@ std::string Analysis::goodTypes(const TypeTrial& trial) {
   }
   const auto errorsWith = [&](TypeId type) {
     for (const sema::VarId var : trial.vars) of.project->var(var).type = type;
+    if (trial.result_of) of.project->pou(trial.result_of).result = type;
     of.diagnostics.closeLines();
     for (const auto& body : bodies) of.checked->tryBody(body);
     return errorsOf(bodies);
   };
-  const size_t known = errorsWith(types::kError);
+  const size_t known = bodies.empty() ? 0 : errorsWith(types::kError);
   std::string good;
-  for (const TypeId type : trial.types) good += errorsWith(type) <= known ? '+' : '-';
+  for (const TypeId type : types)
+    good += type && type != types::kError && (bodies.empty() || errorsWith(type) <= known) ? '+' : '-';
   return good;
 }
 

@@ -21,21 +21,24 @@ class Analysis {
   bool edit(const std::map<std::string, std::string>& texts, const std::atomic<bool>* cancelled);
 
   // The errors of statements as the body of a POU, each on a line of its own: for each the columns and codes, `5:E0401
-  // 9:E0231`. The analysis is of no use afterwards.
+  // 9:E0231`. The analysis is of no use afterwards, unless staysUsable().
   std::vector<std::string> errorsOf(sema::PouId pou, const std::vector<std::string>& statements);
+  bool staysUsable(sema::PouId pou, const std::vector<std::string>& statements) const;
 
   // Bodies to be checked once for each of several types of some variables.
   struct TypeTrial {
     std::vector<sema::VarId> vars;
-    std::vector<TypeId> types;
+    sema::PouId result_of;           // whose result has the type as well; none: nothing's
+    sema::PouId pou;                 // around the declaration; none: file level
+    std::vector<std::string> types;  // with initial values, as they are written: `INT := 5`
     struct Body {
       sema::PouId pou;
       std::string statements;  // that name the variables; empty: its own ones
     };
     std::vector<Body> bodies;
   };
-  // The types with which there is no error that there is not with a variable of which nothing is known: for each `+` or
-  // `-`. The analysis is of no use afterwards.
+  // The types that exist, take the initial value, and with which there is no error that there is not with a variable of
+  // which nothing is known: for each `+` or `-`. The analysis is of no use afterwards.
   std::string goodTypes(const TypeTrial& trial);
 
   // Only one more edit will come.
@@ -48,7 +51,9 @@ class Analysis {
   mutable std::atomic<uint32_t> readers = 0;
 
  private:
+  std::vector<std::string> errorsIn(FileId file, size_t lines) const;
   DeclId trialBody(sema::PouId id, const std::string& statements, FileId& file);
+  std::vector<TypeId> typesOf(const TypeTrial& trial);
   size_t errorsOf(const std::vector<sema::CheckedProject::NewBody>& bodies) const;
   EditedFile* editedFile(const std::string& path);
   bool checkAgain(const std::map<std::string, std::string>& texts, const std::atomic<bool>* cancelled);

@@ -44,6 +44,13 @@ bool Workspace::editInPlace(const std::vector<Change>& changes, const std::atomi
 std::optional<std::vector<std::string>> Workspace::errorsOf(sema::PouId pou,
                                                             const std::vector<std::string>& statements) const {
   if (!analysis_) return std::nullopt;
+  if (analysis_->staysUsable(pou, statements)) return analysis_->errorsOf(pou, statements);
+  return errorsInCopy(pou, statements);
+}
+
+std::optional<std::vector<std::string>> Workspace::errorsInCopy(sema::PouId pou,
+                                                                const std::vector<std::string>& statements) const {
+  if (!analysis_) return std::nullopt;
   const std::optional<std::string> lines = inProcessCopy([&] {
     std::string all;
     for (const std::string& errors : analysis_->errorsOf(pou, statements)) all += errors + "\n";

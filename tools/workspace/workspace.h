@@ -62,8 +62,12 @@ class Workspace {
   // meanwhile: the changes are noted, and the next snapshot has them.
   std::shared_ptr<const Snapshot> apply(std::vector<Change> changes, const std::atomic<bool>* cancelled = nullptr);
   // What would be wrong with statements in a POU of the last snapshot: for each its errors as `column:code`, with
-  // blanks between them. None: it cannot be said. The snapshot stays as it is.
+  // blanks between them. None: it cannot be said. The snapshot says the same afterwards; no other thread reads it
+  // meanwhile.
   std::optional<std::vector<std::string>> errorsOf(sema::PouId pou, const std::vector<std::string>& statements) const;
+  // The same for statements that may name library blocks which the project does not use yet. Costs some milliseconds.
+  std::optional<std::vector<std::string>> errorsInCopy(sema::PouId pou,
+                                                       const std::vector<std::string>& statements) const;
   // Analysis::goodTypes, without a change of the last snapshot. None: it cannot be said.
   std::optional<std::string> goodTypes(const Analysis::TypeTrial& trial) const;
   // What `use` says of the project with other texts, by path. It gets a copy of what is known, and may read nothing

@@ -135,6 +135,30 @@ TEST_F(WorkspaceTest, FilesKeepTheirOrder) {
   EXPECT_EQ(messagesOf(*workspace.apply({{last, program("Z", "DWORD", "4")}})), messages);
 }
 
+// A trial says what is wrong with each statement, and nothing of it is left.
+TEST_F(WorkspaceTest, StatementsAreTried) {
+  const auto snapshot =
+      workspace.apply({{main, "PROGRAM Main\nVAR ramp : Ramp; END_VAR\nramp(); x := 1;\nEND_PROGRAM\n"}});
+  const std::string messages = messagesOf(*snapshot);
+  sema::PouId pou;
+  for (uint32_t i = 1; i < snapshot->project()->pous.size(); ++i)
+    if (snapshot->names().string(snapshot->project()->pous[i].name) == "Main") pou = {i};
+  ASSERT_TRUE(pou);
+  const auto tried = [&](const std::vector<std::string>& statements) {
+    const auto errors = workspace.errorsOf(pou, statements);
+    std::string all;
+    for (const std::string& of : errors ? *errors : std::vector<std::string>{"none"}) all += of + "|";
+    return all;
+  };
+  for (int round = 0; round < 3; ++round) {
+    EXPECT_EQ(tried({"ramp();", "x := 1;", "ramp(z := 1);", "x := x;", "ramp.y := ;"}),
+              "|1:E0401 |6:E0601 |1:E0401 6:E0401 |11:E0203 |");
+    EXPECT_EQ(tried({"%QX0.0 := TRUE;"}), "|");
+    EXPECT_EQ(messagesOf(*snapshot), messages);
+  }
+  EXPECT_EQ(messagesOf(*workspace.apply({{main, kMain}})), "");
+}
+
 class TypingTest : public testing::Test {
  protected:
   TypingTest() {
@@ -164,6 +188,12 @@ TEST_F(TypingTest, SnapshotsEqualACheck) {
     const auto snapshot = workspace.apply({change});
     bodies += snapshot->revision() == revision ? 1 : 0;
     revision = snapshot->revision();
+    const auto pous = static_cast<uint32_t>(snapshot->project() == nullptr ? 0 : snapshot->project()->pous.size());
+    for (uint32_t pou = 1 + static_cast<uint32_t>(round) % 7; pou < pous; pou += 7) {
+      const sema::Pou& of = snapshot->project()->pous[pou];
+      if (!of.decl || of.library) continue;
+      EXPECT_TRUE(workspace.errorsOf({pou}, {"x := LIMIT(1, x, 7);", "rung_no_name.x(a := 1);", "END_IF; RETURN;"}));
+    }
     ASSERT_EQ(messagesOf(*snapshot), messagesOfCheck(typing)) << change.path << "\n" << *change.text;
   }
   EXPECT_GT(bodies, 40);
