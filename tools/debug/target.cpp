@@ -6,20 +6,6 @@
 namespace rung::debug {
 namespace {
 
-// Options of `rung run` that have no meaning without a clock, or whose effects have no past.
-std::string refusedOption(const host::RunOptions& run) {
-  if (run.realtime) return "--realtime";
-  if (!run.monitor.address.empty()) return "--monitor";
-  if (!run.control_path.empty()) return "--control";
-  if (!run.drivers.empty()) return "--driver";
-  if (!run.plot_path.empty()) return "--plot";
-  return run.trace_calls ? "--trace-calls" : "";
-}
-
-}  // namespace
-
-namespace {
-
 // What a compilation says while the program is debugged.
 class GatheredText final : public driver::Sink {
  public:
@@ -50,10 +36,6 @@ int Target::make(const TargetOptions& options, std::function<void(const std::str
   std::vector<std::string> rest;
   error = host::parseRunOptions(options.run.host_arguments, wanted.run, rest);
   if (error.empty() && !rest.empty()) error = "unknown option `" + rest[0] + "`";
-  const std::string refused = refusedOption(wanted.run);
-  if (error.empty() && !refused.empty()) error = "`" + refused + "` cannot be combined with the debugger";
-  if (error.empty() && options.run.engine == driver::Engine::Native)
-    error = "the debugger interprets the program; for compiled code there is `rung build -g` and gdb";
   if (!error.empty()) return driver::kUsage;
 
   driver::ProjectOptions compiling = options.project;

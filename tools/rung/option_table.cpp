@@ -8,9 +8,10 @@
 namespace rung::tool {
 namespace {
 
-constexpr uint32_t kRuns = bit(Command::Run) | bit(Command::Monitor) | bit(Command::Debug);
+constexpr uint32_t kRuns = bit(Command::Run) | bit(Command::Monitor);
+constexpr uint32_t kRunsOrDebugs = kRuns | bit(Command::Debug);
 constexpr uint32_t kCompile =
-    bit(Command::Check) | bit(Command::Emit) | bit(Command::Build) | kRuns | bit(Command::Test);
+    bit(Command::Check) | bit(Command::Emit) | bit(Command::Build) | kRunsOrDebugs | bit(Command::Test);
 constexpr uint32_t kReads =
     kCompile | bit(Command::List) | bit(Command::Convert) | bit(Command::Graph) | bit(Command::Fmt);
 constexpr uint32_t kReadsOrServes = kReads | bit(Command::Lsp);
@@ -287,33 +288,35 @@ constexpr OptionRow kOptions[] = {
      "keep the generated C++ and print its folder"},
     {"--engine", "native|interp", kRuns | bit(Command::Test), setEngine,
      "compile to C++, or interpret (default: interp)"},
-    {"--cycles", "N", kRuns, addHostArgument, "run N cycles (default: 100, or all of --inputs)"},
-    {"--for", "T", kRuns, addHostArgument, "run for a time, such as T#2s"},
-    {"--interval", "T", kRuns, addHostArgument, "cycle time if there are no tasks (default: T#10ms)"},
-    {"--inputs", "FILE", kRuns, addHostArgument, "CSV (cycle,PATH,...): values set before each cycle"},
-    {"--set", "PATH=VALUE", kRuns, addHostArgument, "set a variable before cycle 0; may be repeated"},
-    {"--watch", "PATH,...", kRuns | bit(Command::Test), addHostArgument, "variables to trace (default: all)"},
-    {"--trace", "FILE", kRuns | bit(Command::Test), addHostArgument, "write a CSV row after each cycle; - is stdout"},
+    {"--cycles", "N", kRunsOrDebugs, addHostArgument, "run N cycles (default: 100, or all of --inputs)"},
+    {"--for", "T", kRunsOrDebugs, addHostArgument, "run for a time, such as T#2s"},
+    {"--interval", "T", kRunsOrDebugs, addHostArgument, "cycle time if there are no tasks (default: T#10ms)"},
+    {"--inputs", "FILE", kRunsOrDebugs, addHostArgument, "CSV (cycle,PATH,...): values set before each cycle"},
+    {"--set", "PATH=VALUE", kRunsOrDebugs, addHostArgument, "set a variable before cycle 0; may be repeated"},
+    {"--watch", "PATH,...", kRunsOrDebugs | bit(Command::Test), addHostArgument, "variables to trace (default: all)"},
+    {"--trace", "FILE", kRunsOrDebugs | bit(Command::Test), addHostArgument,
+     "write a CSV row after each cycle; - is stdout"},
     {"--plot", "FILE", kRuns | bit(Command::Test), addHostArgument, "plot the variables over time, as SVG"},
-    {"--on-fault", "all|task", kRuns, addHostArgument, "what a fault stops (default: all tasks)"},
+    {"--on-fault", "all|task", kRunsOrDebugs, addHostArgument, "what a fault stops (default: all tasks)"},
     {"--control", "FILE", kRuns, addHostArgument, "commands: stop, reset, get, set, force and others"},
-    {"--watch-files", nullptr, kRuns, setFlag<&CommandLine::run, &RunOptions::watch_files>,
+    {"--watch-files", nullptr, kRunsOrDebugs, setFlag<&CommandLine::run, &RunOptions::watch_files>,
      "change the running program when its files change"},
     {"--rollback", "N", kRuns, addHostArgument, "go back when a new version faults within N cycles"},
     {"--monitor", "[ADDRESS:]PORT", kRuns, addHostArgument, "serve a page and tools there; 0: any free port"},
     {"--monitor-insecure", nullptr, kRuns, addHostArgument, "that address may be any, without encryption"},
     {"--driver", "LIB[=ARG]", kRuns, addHostArgument, "devices of a product: a library with rung_drivers"},
-    {"--retain", "FILE", kRuns, addHostArgument, "keep retained variables in FILE between runs"},
+    {"--retain", "FILE", kRunsOrDebugs, addHostArgument, "keep retained variables in FILE between runs"},
     {"--retain-interval", "T", kRuns, addHostArgument, "how often the retain file is written (default: 1s)"},
-    {"--start", "cold|warm|origin", kRuns, addHostArgument, "default: warm if the retain file exists, else cold"},
-    {"--files-root", "DIR", kRuns, addHostArgument, "folder for the program's files (default: current)"},
-    {"--serial", "N=DEVICE", kRuns, addHostArgument, "device of serial port N; may be repeated"},
-    {"--stop-on", "CONDITION", kRuns, addHostArgument, "stop after the cycle that makes CONDITION TRUE"},
+    {"--start", "cold|warm|origin", kRunsOrDebugs, addHostArgument,
+     "default: warm if the retain file exists, else cold"},
+    {"--files-root", "DIR", kRunsOrDebugs, addHostArgument, "folder for the program's files (default: current)"},
+    {"--serial", "N=DEVICE", kRunsOrDebugs, addHostArgument, "device of serial port N; may be repeated"},
+    {"--stop-on", "CONDITION", kRunsOrDebugs, addHostArgument, "stop after the cycle that makes CONDITION TRUE"},
     {"--trace-forces", nullptr, kRuns, addHostArgument, "a column of the trace names forced variables"},
     {"--trace-calls", nullptr, kRuns, addHostArgument, "print which POUs ran in each cycle"},
     {"--realtime", nullptr, kRuns, addHostArgument, "run in real time"},
     {"--timeout", "T", kRuns | bit(Command::Test), setLimit, "end the run, or each test, after T (a test: 10s)"},
-    {"--max-steps", "N", kRuns | bit(Command::Test), setLimit, "end an activation after N steps (100000000)"},
+    {"--max-steps", "N", kRunsOrDebugs | bit(Command::Test), setLimit, "end an activation after N steps (100000000)"},
     {"--filter", "GLOB", bit(Command::Test), addText<&CommandLine::test, &TestOptions::filters>,
      "run only tests whose name matches; may be repeated"},
     {"--list", nullptr, bit(Command::Test), setFlag<&CommandLine::test, &TestOptions::list>,
