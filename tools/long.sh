@@ -12,6 +12,7 @@
 # rename        1 500 random renames in projects and files of all formats: equal C++ but for the name (COUNT, FIRST)
 # debugger      steps of every kind, forward and back, through all conformance programs, 100 programs with peers and
 #               files, and 60 sessions of requests in any order
+# adapter       sessions with `rung dap` by the client that Microsoft tests adapters with (needs npm)
 # typing        20 files of each folder of samples and vendors' projects typed from the first character to the last in the
 #               language server, and random edits: it says what a cold check says (COUNT, FIRST)
 # editor_fuzz   40 000 messages of a stranger to the language server: one answer to each request, and no end (COUNT, FIRST)
@@ -96,6 +97,16 @@ rename() {
   mapfile -t files < <(find tests/conformance/language tests/conformance/standard -name '*.st' -o -name '*.xml' | sort)
   PATH=$bin:$PATH tests/lsp/rename.py --seed "$first" --count "$((${COUNT:-1500} / 500))" --verbose "${files[@]}"
   PATH=$bin:$PATH tests/lsp/rename.py --seed "$first" --count 20 --verbose samples/*/ tests/programs/vendor/*/
+}
+
+adapter() {
+  needs rung
+  local folder
+  folder=$(mktemp -d)
+  sed -n '/^```st filler.st/,/^```$/p' docs/debugging.md | sed '1d;$d' >"$folder/filler.st"
+  (cd "$folder" && npm init -y >npm.log && npm install @vscode/debugadapter-testsupport@1.68.0 >>npm.log &&
+   PATH=$bin:$PATH node "$OLDPWD/tests/dap/testsupport.js" filler.st)
+  rm -r "$folder"
 }
 
 debugger() {
@@ -265,7 +276,7 @@ compilers() {
   CXX=clang++ "$bin/rung_test_runner" tests/conformance
 }
 
-all=(differential networks mutants frames snapshots rename typing editor_fuzz editor debugger changes forces monitor page modifiers bodies mutation profiles cams kills tsan
+all=(differential networks mutants frames snapshots rename typing editor_fuzz editor debugger adapter changes forces monitor page modifiers bodies mutation profiles cams kills tsan
      service vscode kate lateness asan debug tidy conversions conformance packages compilers)
 parts=("$@")
 [ ${#parts[@]} -gt 0 ] || parts=("${all[@]}")

@@ -186,6 +186,8 @@ void Adapter::report(const Stop& stop) {
       {Stop::HistoryBegins, "entry"}, {Stop::Ended, "goto"}};
   for (const auto& [reason, name] : kReasons)
     if (reason == stop.reason) last_reason_ = name;
+  if (is_entering_ && stop.reason == Stop::Step) last_reason_ = "entry";
+  is_entering_ = false;
   last_text_ = stop.text;
   Json body = {{"reason", last_reason_}, {"threadId", static_cast<int64_t>(task())}, {"allThreadsStopped", true}};
   if (!stop.text.empty()) body.set("text", stop.text);
@@ -266,11 +268,9 @@ void Adapter::configurationDone(const Json& request, const Json&) {
   if (is_configured_) return connection_.refuse(request, "the program has been started");
   is_configured_ = true;
   run(request, {}, [this] {
-    if (!stops_on_entry_) return debugger().resume();
-    Stop stop = debugger().step(StepKind::Into, Granularity::Statement);
-    if (stop.reason == Stop::Step) stop.reason = Stop::Entry;
-    return stop;
+    return stops_on_entry_ ? debugger().step(StepKind::Into, Granularity::Statement) : debugger().resume();
   });
+  is_entering_ = stops_on_entry_;
 }
 
 void Adapter::disconnect(const Json& request, const Json&) {

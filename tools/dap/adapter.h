@@ -99,8 +99,9 @@ class Adapter {
   std::unique_ptr<debug::Target> target_;
   std::unique_ptr<Attached> attached_;  // instead of a target
   bool is_initialized_ = false, is_configured_ = false, ends_ = false, stops_on_entry_ = false;
-  bool pauses_ = false;     // the client asked for it
-  bool has_ended_ = false;  // and the client was told
+  bool is_entering_ = false;  // the first stop is the one at the entry
+  bool pauses_ = false;       // the client asked for it
+  bool has_ended_ = false;    // and the client was told
   int exit_code_ = 0;
   int64_t line_base_ = 1, column_base_ = 1;
   std::function<debug::Stop()> runs_;
