@@ -50,7 +50,7 @@ DebugCode::DebugCode(const Module& module, const Description& description, Code&
     // Two statements begin with the same instruction where the first has no code.
     if (!points_.empty() && points_.back().insn == point.insn) points_.pop_back();
     point_of_[point.insn] = static_cast<uint32_t>(points_.size());
-    points_.push_back({point.insn, number[point.body], point.line, point.column, point.file});
+    points_.push_back({point.insn, number[point.body], point.line, point.column, point.network, point.file});
   }
   code.points.clear();
   code.debug_offsets.clear();

@@ -36,6 +36,7 @@ struct DebugBody {
 
 struct DebugPoint {
   uint32_t insn, body, line, column;
+  uint32_t network;  // in which network of the body, as a number that only tells them apart; 0: in none
   const char* file;
 };
 

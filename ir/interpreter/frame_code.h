@@ -32,7 +32,7 @@ struct Code {
   // For debuggers (TranslateOptions::debug), until DebugCode has them: where statements of the source begin, and by
   // BodyId the end of each body and where its locals are in the frame.
   struct Point {
-    uint32_t insn, body, line, column;
+    uint32_t insn, body, line, column, network;
     const char* file;
   };
   std::vector<Point> points;

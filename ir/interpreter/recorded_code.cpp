@@ -2,6 +2,8 @@
 // See recorded_code.h.
 #include "ir/interpreter/recorded_code.h"
 
+#include <algorithm>
+
 namespace rung::ir::interpreter {
 
 void RecordedCode::count(Loc loc, const char* function) {
@@ -34,6 +36,35 @@ void RecordedCode::recordLocation(Loc loc) {
                               pool_.add(at.path), at.line, at.column});
 }
 
+// Where the networks of a file begin: lines of the notation, and of the ladder of NCT.
+const std::vector<uint32_t>& RecordedCode::networksOf(FileId file) {
+  const auto [at, is_new] = networks_.try_emplace(file.index);
+  if (!is_new) return at->second;
+  const std::string_view text = module_.sources.sourceText(file);
+  const uint32_t base = module_.sources.begin(file).offset;
+  for (size_t line = text.find('\n'); line != std::string_view::npos; line = text.find('\n', line + 1)) {
+    const std::string_view rest = text.substr(line + 1, 7);
+    if (rest.starts_with("NETWORK") || rest.starts_with("RUNG"))
+      at->second.push_back(base + static_cast<uint32_t>(line));
+  }
+  return at->second;
+}
+
+// The last network of the body before a location; 0: none.
+uint32_t RecordedCode::lastNetwork(Loc body, Loc loc) {
+  const FileId file = module_.sources.fileOf(loc);
+  if (!body || !loc || module_.sources.fileOf(body) != file) return 0;
+  const std::vector<uint32_t>& all = networksOf(file);
+  const auto after = std::upper_bound(all.begin(), all.end(), loc.offset);
+  return after == all.begin() || *(after - 1) < body.offset ? 0 : *(after - 1);
+}
+
+uint32_t RecordedCode::networkOf(Loc loc) {
+  const uint32_t network = lastNetwork(body_->loc, loc);
+  if (network != 0) return network;
+  return lastNetwork(module_.sources.originalLocation(body_->loc), module_.sources.originalLocation(loc));
+}
+
 // What Rung makes for the header of a POU is not a statement of the source.
 void RecordedCode::recordPoint(Loc loc) {
   if (!options_.debug || body_->library || body_->kind == BodyKind::Init || !loc || loc == body_->loc) return;
@@ -43,7 +74,8 @@ void RecordedCode::recordPoint(Loc loc) {
   const FilePosition at = filePosition(module_, *body_, loc);
   const char* file = code_.points.empty() ? nullptr : code_.points.back().file;
   if (file == nullptr || at.path != file) file = code_.strings.emplace_back(at.path).c_str();
-  code_.points.push_back({static_cast<uint32_t>(code_.insns.size()), body_id_.index, at.line, at.column, file});
+  code_.points.push_back(
+      {static_cast<uint32_t>(code_.insns.size()), body_id_.index, at.line, at.column, networkOf(loc), file});
 }
 
 void RecordedCode::countStep() {

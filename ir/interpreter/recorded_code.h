@@ -5,6 +5,8 @@
 #pragma once
 
 #include <span>
+#include <unordered_map>
+#include <vector>
 
 #include "ir/interpreter/frame_code.h"
 
@@ -25,6 +27,9 @@ class RecordedCode : protected FrameCode {
 
   void recordLocation(Loc loc);
   void recordPoint(Loc loc);
+  uint32_t networkOf(Loc loc);
+  uint32_t lastNetwork(Loc body, Loc loc);
+  const std::vector<uint32_t>& networksOf(FileId file);
   void count(Loc loc, const char* function);
   bool countsBranches(Loc loc) const;
   void countBranch(Loc loc, uint32_t branch);
@@ -37,6 +42,7 @@ class RecordedCode : protected FrameCode {
   Loc recorded_loc_;  // the last one of code_.line_table
   Loc point_loc_;     // and of code_.points
   uint32_t point_body_ = 0;
+  std::unordered_map<uint32_t, std::vector<uint32_t>> networks_;  // by file; offsets of locations
 };
 
 }  // namespace rung::ir::interpreter

@@ -326,9 +326,12 @@ bool Debugger::stopsAtAssertion(const Moment&) {
   return true;
 }
 
-bool Debugger::isSameLine(uint32_t one, uint32_t other) const {
-  if (one == RUNG_NONE || other == RUNG_NONE) return false;
+// A step of this size goes on: in a network or, outside of networks, on a line.
+bool Debugger::isSamePart(Granularity granularity, uint32_t one, uint32_t other) const {
+  if (granularity == Granularity::Statement || one == RUNG_NONE || other == RUNG_NONE) return false;
   const DebugPoint &a = execution_.code().points()[one], &b = execution_.code().points()[other];
+  if (granularity == Granularity::Network && (a.network != 0 || b.network != 0))
+    return a.body == b.body && a.network == b.network;
   return a.body == b.body && a.line == b.line;
 }
 
@@ -336,14 +339,13 @@ bool Debugger::completesStep(uint32_t point, const Machine& machine) const {
   const bool is_new_unit = execution_.now().unit != step_.unit;
   if (step_.kind == StepKind::Cycle) return execution_.cycle() != step_.cycle;
   if (step_.kind == StepKind::Activation) return is_new_unit && machine.ctx->task == step_.task;
-  if (step_.kind == StepKind::Into)
-    return !(step_.granularity != Granularity::Statement && isSameLine(point, step_.point));
+  if (step_.kind == StepKind::Into) return !isSamePart(step_.granularity, point, step_.point);
   if (step_.task != 0 && machine.ctx->task != step_.task) return false;
   const size_t depth = DebugCode::depth(machine);
   if (step_.kind == StepKind::Out) return is_new_unit || depth < step_.depth;
   if (is_new_unit) return true;
   if (depth > step_.depth) return false;
-  return depth < step_.depth || step_.granularity == Granularity::Statement || !isSameLine(point, step_.point);
+  return depth < step_.depth || !isSamePart(step_.granularity, point, step_.point);
 }
 
 // ---- forward
@@ -529,7 +531,7 @@ Stop Debugger::stepBack(Granularity granularity) {
     if (machine.ctx->task != task || (at.unit == origin.unit && DebugCode::depth(machine) > depth)) return false;
     if (at.unit != origin.unit && DebugCode::depth(machine) > depth) return false;
     if (is_within && at.unit == origin.unit && at.steps == origin.steps && at.point == point) return false;
-    return granularity == Granularity::Statement || !isSameLine(at.point, point);
+    return !isSamePart(granularity, at.point, point);
   });
   if (!is_found) return {Stop::HistoryBegins, "the program has done nothing before", {}, 0};
   return {Stop::Step, "", {}, 0};

@@ -132,7 +132,7 @@ class Debugger : Judge {
   bool hasChanged(Breakpoint& breakpoint, std::string* text);
   void log(const Breakpoint& breakpoint, const Machine& machine, uint32_t point);
   bool completesStep(uint32_t point, const Machine& machine) const;
-  bool isSameLine(uint32_t one, uint32_t other) const;
+  bool isSamePart(Granularity granularity, uint32_t one, uint32_t other) const;
   Execution::Armed armed() const;
   template <class Predicate>
   bool searchBack(const Execution::Armed& armed, Predicate predicate);

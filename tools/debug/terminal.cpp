@@ -78,6 +78,9 @@ class Terminal {
   void step(const std::string& arguments) {
     repeat(arguments, [this] { return debugger_.step(StepKind::Into, Granularity::Line); });
   }
+  void network(const std::string& arguments) {
+    repeat(arguments, [this] { return debugger_.step(StepKind::Over, Granularity::Network); });
+  }
   void nextStatement(const std::string& arguments) {
     repeat(arguments, [this] { return debugger_.step(StepKind::Into, Granularity::Statement); });
   }
@@ -222,6 +225,7 @@ const Terminal::Command Terminal::kCommands[] = {
     {"lastwrite", "PATH", "back to the statement that changed a variable last", &Terminal::lastWrite},
     {"list", "[LINE]", "the source", &Terminal::list},
     {"log", "LOCATION TEXT", "print a text with {expressions} there, without a stop", &Terminal::logPoint},
+    {"network", "[N]", "to the next network or rung", &Terminal::network},
     {"next", "[N]", "to the next line of this call", &Terminal::next},
     {"print", "EXPRESSION", "a value; prev(x) is that before the cycle", &Terminal::print},
     {"quit", "", "end", &Terminal::quit},
