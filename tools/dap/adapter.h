@@ -112,7 +112,8 @@ class Adapter {
     enum Kind : uint8_t { Locals, Instance, Globals, Image, Inside } kind;
     size_t frame = 0;
     debug::Variable place;
-    std::string path;  // an expression for it; empty: none
+    std::string path;                                         // an expression for it; empty: none
+    std::string expressionOf(const std::string& name) const;  // of what is inside
   };
   std::vector<Handle> handles_;
 };

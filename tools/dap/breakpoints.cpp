@@ -71,7 +71,7 @@ void Adapter::dataBreakpointInfo(const Json& request, const Json& arguments) {
     const std::vector<debug::DebugFrame>& frames = debugger().frames();
     if (handle.kind == Handle::Instance && handle.frame < frames.size())
       path = debugger().values().instancePath(frames[handle.frame]) + '.' + path;
-    if (handle.kind == Handle::Inside) path = handle.path + (path[0] == '[' || path[0] == '^' ? "" : ".") + path;
+    if (handle.kind == Handle::Inside) path = handle.expressionOf(path);
     if (handle.kind == Handle::Locals) path.clear();
   } else if (const debug::DebugFrame* const frame = frameOf(arguments["frameId"])) {
     const std::string inside = debugger().values().instancePath(*frame) + '.' + path;

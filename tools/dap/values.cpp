@@ -17,6 +17,11 @@ Json Adapter::sourceOf(const char* file) const {
   return {{"name", path.substr(path.find_last_of('/') + 1)}, {"path", path}};
 }
 
+std::string Adapter::Handle::expressionOf(const std::string& name) const {
+  if (kind != Inside) return name;
+  return path + (name.starts_with('[') || name.starts_with('^') ? "" : ".") + name;
+}
+
 const debug::DebugFrame* Adapter::frameOf(const Json& id) {
   const std::vector<debug::DebugFrame>& frames = debugger().frames();
   const int64_t number = id.integer();
@@ -104,14 +109,7 @@ void Adapter::variables(const Json& request, const Json& arguments) {
       break;
   }
   Json list = Json(Json::Array());
-  for (const debug::ShownVariable& variable : found) {
-    std::string path = variable.name;
-    if (handle.kind == Handle::Inside) {
-      const bool is_member = path[0] != '[' && path[0] != '^';
-      path = handle.path + (is_member ? "." : "") + path;
-    }
-    list.add(variableOf(variable, path));
-  }
+  for (const debug::ShownVariable& variable : found) list.add(variableOf(variable, handle.expressionOf(variable.name)));
   connection_.respond(request, {{"variables", std::move(list)}});
 }
 
@@ -120,8 +118,7 @@ void Adapter::setVariable(const Json& request, const Json& arguments) {
   if (number < 1 || number > static_cast<int64_t>(handles_.size()))
     return connection_.refuse(request, "there is no such variable any more");
   const Handle handle = handles_[static_cast<size_t>(number - 1)];
-  std::string path(arguments["name"].text());
-  if (handle.kind == Handle::Inside) path = handle.path + (path[0] != '[' && path[0] != '^' ? "." : "") + path;
+  const std::string path = handle.expressionOf(std::string(arguments["name"].text()));
   const std::vector<debug::DebugFrame>& frames = debugger().frames();
   const debug::DebugFrame* const frame = handle.frame < frames.size() ? &frames[handle.frame] : nullptr;
   const std::string error = debugger().set(path, std::string(arguments["value"].text()), frame);

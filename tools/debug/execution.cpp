@@ -18,17 +18,6 @@ constexpr int kFailed = 4, kFaulted = 3;
 
 Execution* debugged = nullptr;  // programs run one at a time
 
-host::SessionOptions sessionOptions(const ExecutionOptions& options) {
-  host::SessionOptions wanted;
-  wanted.interval_ns = options.run.interval_ns;
-  wanted.max_steps = options.run.max_steps;
-  wanted.others_go_on = options.run.others_go_on;
-  wanted.is_isolated = !options.test.empty();
-  wanted.files_root = options.run.files_root;
-  wanted.serial = options.run.serial;
-  return wanted;
-}
-
 }  // namespace
 
 Execution::Execution(std::shared_ptr<driver::ProgramVersion> version, ExecutionOptions options)
@@ -42,7 +31,9 @@ Execution::Execution(std::shared_ptr<driver::ProgramVersion> version, ExecutionO
     log_.serve(host);
     host.faulted = onFaulted;
   };
-  session_ = std::make_unique<host::Session>(*version_->module, sessionOptions(options_), hooks);
+  host::SessionOptions wanted = host::SessionOptions::of(options_.run);
+  wanted.is_isolated = is_test_;
+  session_ = std::make_unique<host::Session>(*version_->module, wanted, hooks);
   code().listen(this);
   order_.is_armed.resize(code().points().size());
   past_.checkpoints.push_back({});
@@ -187,20 +178,14 @@ void Execution::onFaulted(void*, const rung_context* context) {
 }
 
 void Execution::onMessage(uint8_t severity, const char* text) {
-  if (!log_.isFirstReport()) return;
-  static const char* const words[] = {"note", "warning", "error"};
-  const int64_t ms = session_->nowNs() / 1'000'000;
-  char time[32];
-  snprintf(time, sizeof time, "%lld.%03d s: ", static_cast<long long>(ms / 1000), static_cast<int>(ms % 1000));
-  options_.print(std::string(time) + words[std::min<int>(severity, 2)] + ": " + text + "\n", true);
+  if (log_.isFirstReport()) options_.print(host::messageLine(session_->nowNs(), severity, text) + "\n", true);
 }
 
 void Execution::onAssertion(const rung_assertion& assertion, bool passed, const char* expected, const char* actual) {
   if (passed) return;
   place_.has_failed = true;
   const std::string location = host::shownPath(paths(), assertion.file) + ':' + std::to_string(assertion.line);
-  std::string text = location + ": assertion failed: expected " + expected + ", got " + actual;
-  if (assertion.message != nullptr) text += std::string(" (") + assertion.message + ')';
+  const std::string text = location + ": " + host::describeAssertion(assertion, expected, actual);
   const bool is_new = is_test_ || std::find(reported_.begin(), reported_.end(), location) == reported_.end();
   if (log_.isFirstReport() && is_new) {
     reported_.push_back(location);
@@ -313,7 +298,7 @@ void Execution::finish(const host::Ending& ending) {
   std::string error;
   if (!ending.isComplete()) {
     exit_code_ = is_test_ ? kFailed : kFaulted;
-    if (is_first) options_.print(describe(ending) + "\n", true);
+    if (is_first) options_.print(host::describeEnding(ending, session_->context(), paths()) + "\n", true);
   }
   if (!is_first) return;
   if (retain_ && ending.isComplete()) {
@@ -327,19 +312,6 @@ void Execution::finish(const host::Ending& ending) {
     options_.print(
         (ending.isComplete() ? last_row : std::string()) + std::to_string(session_->cyclesDone()) + " cycles\n", false);
   }
-}
-
-std::string Execution::describe(const host::Ending& ending) const {
-  switch (ending.kind) {
-    case host::Ending::Complete: break;
-    case host::Ending::Faulted:
-      return host::describeFault(ending.context != nullptr ? *ending.context : session_->context(), ending.fault,
-                                 paths());
-    case host::Ending::Watchdog:
-      return "fault[watchdog]: task `" + ending.name + "` ran longer than its watchdog allows";
-    case host::Ending::Driver: return "fault[driver]: `" + ending.name + "` does not answer";
-  }
-  return "";
 }
 
 std::string Execution::faultText() {

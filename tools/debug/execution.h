@@ -188,7 +188,6 @@ class Execution : DebugCode::Listener {
   bool runUnit();
   bool runCycles(host::Ending& ending);
   void finish(const host::Ending& ending);
-  std::string describe(const host::Ending& ending) const;
   bool parksAtBorder();
   void applyEdits(const Moment& at);
   bool reaches(const Moment& at);

@@ -4,24 +4,12 @@
 #include "rung/host.h"
 
 namespace rung::debug {
-namespace {
-
-// What a compilation says while the program is debugged.
-class GatheredText final : public driver::Sink {
- public:
-  void message(std::string_view what) override { text += what; }
-  std::string output(std::string_view) override { return ""; }
-  std::string text;
-};
-
-}  // namespace
-
 void Target::watchFiles(const driver::ProjectOptions& project, const driver::RunOptions& run) {
   const auto watch = std::make_shared<driver::SourceWatch>(project);
   debugger->newVersion([watch, project, run](std::string& problem) -> std::shared_ptr<driver::ProgramVersion> {
     // Somebody who steps has saved: the files are quiet.
     if (!watch->hasChanged() && !watch->hasChanged()) return nullptr;
-    GatheredText gathered;
+    driver::MessageSink gathered;
     driver::PhaseTimes times;
     auto made = std::make_shared<driver::ProgramVersion>();
     if (driver::makeProgram(project, run, true, times, gathered, *made) == driver::kSuccess) return made;

@@ -211,7 +211,10 @@ bool Values::find(const DebugFrame* frame, std::string_view name, Variable& vari
 
 std::string Values::instancePath(const DebugFrame& frame) const {
   if (frame.self == nullptr) return "";
-  return host::instancePath(execution_.session().context(), execution_.code().bodies()[frame.body].name, frame.self);
+  const uint32_t self = execution_.code().bodies()[frame.body].self;
+  if (self == RUNG_NONE) return "";
+  const char* const type = module().strings + rung_type_at(&module(), self)->name;
+  return host::instancePath(execution_.session().context(), type, frame.self);
 }
 
 std::string Values::nameOf(const DebugFrame& frame) const {

@@ -19,14 +19,6 @@ namespace rung::driver {
 
 namespace {
 
-// What a compilation says while the program runs, as text.
-class Gathered final : public Sink {
- public:
-  void message(std::string_view what) override { text += what; }
-  std::string output(std::string_view) override { return ""; }
-  std::string text;
-};
-
 host::ShownPaths pathsOf(const ProgramVersion& version) {
   return host::ShownPaths(version.paths.begin(), version.paths.end());
 }
@@ -36,7 +28,7 @@ host::NewVersion makeVersion(const ProjectOptions& project, const RunOptions& op
                              bool has_monitor) {
   ProjectOptions changed = project;
   if (!input.empty()) changed.inputs = {input};
-  Gathered gathered;
+  MessageSink gathered;
   PhaseTimes times;
   const auto made = std::make_shared<ProgramVersion>();
   made->has_monitor = has_monitor;

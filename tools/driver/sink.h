@@ -44,4 +44,12 @@ class SilentSink final : public Sink {
   std::string output(std::string_view) override { return {}; }
 };
 
+// For what a command says while something else has the terminal.
+class MessageSink final : public Sink {
+ public:
+  void message(std::string_view what) override { text += what; }
+  std::string output(std::string_view) override { return {}; }
+  std::string text;
+};
+
 }  // namespace rung::driver

@@ -15,7 +15,7 @@ namespace rung::host {
 
 class CallTrace {
  public:
-  CallTrace(const LoadedModule& module, const Memory& memory) : module_(module), memory_(memory) {}
+  explicit CallTrace(const Memory& memory) : memory_(memory) {}
 
   void called(const char* pou, const void* instance);
   // The line for the calls since the previous line.
@@ -26,10 +26,8 @@ class CallTrace {
     std::string name;
     uint64_t count;
   };
-  std::string nameOf(const char* pou, const uint8_t* instance) const;
-  std::string pathInside(const rung_type* type, uint32_t offset, const char* pou) const;
+  std::string nameOf(const char* pou, const void* instance) const;
 
-  const LoadedModule& module_;
   const Memory& memory_;
   std::vector<Call> calls_;
   std::map<std::pair<const void*, const char*>, size_t> index_;  // by instance and type; index into calls_

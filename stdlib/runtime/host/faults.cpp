@@ -5,7 +5,10 @@
 #include <strings.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <string_view>
+
+#include "tasks.h"
 
 namespace rung::host {
 
@@ -22,14 +25,17 @@ bool isSame(std::string_view name, std::string_view other) {
   return name.size() == other.size() && strncasecmp(name.data(), other.data(), name.size()) == 0;
 }
 
-// The instance of a POU at an address, from the variables that contain the address down: each may begin with another.
+// The instance of a type at an address, from the variables that contain the address down: each may begin with another.
 class InstanceSearch {
  public:
-  InstanceSearch(const rung_context& context, std::string_view pou)
-      : context_(context), module_(*context.module), pou_(pou.substr(0, pou.find('.'))) {}
+  InstanceSearch(const rung_context& context, std::string_view type)
+      : context_(context), module_(*context.module), type_(type) {}
 
   // The path; '': there is none, such as for a variable of a function.
-  std::string find(const void* instance) {
+  const std::string& found() const { return found_; }
+  // The outermost variable that begins there, of whatever type.
+  const std::string& first() const { return first_; }
+  InstanceSearch& find(const void* instance) {
     for (uint32_t i = 0; i < module_.symbols.count; ++i) {
       const rung_symbol& symbol = *rung_symbol_at(&module_, i);
       if (symbol.storage != RUNG_IN_BLOCK || (symbol.flags & RUNG_FIELD_BY_REFERENCE) != 0) continue;
@@ -39,7 +45,7 @@ class InstanceSearch {
       enter(symbol.type, static_cast<uint32_t>(distance), text(symbol.name));
       if (!found_.empty()) break;
     }
-    return found_.empty() ? first_ : found_;
+    return *this;
   }
 
  private:
@@ -50,7 +56,7 @@ class InstanceSearch {
     if (type.kind == RUNG_ARRAY) return enterElement(type, distance, path);
     if (type.kind != RUNG_RECORD) return;
     if (distance == 0 && first_.empty()) first_ = path;
-    if (distance == 0 && isSame(text(type.name), pou_)) found_ = path;
+    if (distance == 0 && isSame(text(type.name), type_)) found_ = path;
     for (uint32_t i = 0; i < type.count && found_.empty(); ++i) {
       const rung_field& field = *rung_field_at(&module_, type.first + i);
       if ((field.flags & RUNG_FIELD_BY_REFERENCE) != 0 || distance < field.offset ||
@@ -77,9 +83,16 @@ class InstanceSearch {
 
   const rung_context& context_;
   const rung_module& module_;
-  std::string_view pou_;
+  std::string_view type_;
   std::string found_, first_;
 };
+
+// Of a POU as faults name it: `Belt`, or its method `Belt.run`.
+std::string instanceOf(const rung_context& context, const std::string& pou, const void* instance) {
+  InstanceSearch search(context, std::string_view(pou).substr(0, pou.find('.')));
+  search.find(instance);
+  return search.found().empty() ? search.first() : search.found();
+}
 
 // `  Main.line[0] called in `Main` at line.st:20:3`, the innermost call first.
 std::string describeCallers(const rung_context& context, const rung_fault& fault, const ShownPaths& paths) {
@@ -96,7 +109,7 @@ std::string describeCallers(const rung_context& context, const rung_fault& fault
     const rung_site& site = *rung_site_at(&module, caller.site);
     if (site.line == 0) continue;  // the host's call, not the program's
     const std::string instance =
-        caller.instance == nullptr ? std::string() : InstanceSearch(context, callee).find(caller.instance);
+        caller.instance == nullptr ? std::string() : instanceOf(context, callee, caller.instance);
     text += "\n  ";
     text += instance.empty() ? "`" + callee + '`' : "`" + instance + '`';
     const std::string pou = pouOf(caller.site);
@@ -175,8 +188,37 @@ std::string faultText(const rung_fault& fault, const rung_site& site, int64_t st
 
 }  // namespace
 
-std::string instancePath(const rung_context& context, std::string_view pou, const void* instance) {
-  return InstanceSearch(context, pou).find(instance);
+std::string instancePath(const rung_context& context, std::string_view type, const void* instance) {
+  return InstanceSearch(context, type).find(instance).found();
+}
+
+std::string describeEnding(const Ending& ending, const rung_context& context, const ShownPaths& paths) {
+  switch (ending.kind) {
+    case Ending::Complete: break;
+    case Ending::Faulted:
+      return describeFault(ending.context != nullptr ? *ending.context : context, ending.fault, paths);
+    case Ending::Watchdog: return "fault[watchdog]: task `" + ending.name + "` ran longer than its watchdog allows";
+    case Ending::Driver: return "fault[driver]: `" + ending.name + "` does not answer";
+  }
+  return "";
+}
+
+std::string describeAssertion(const rung_assertion& assertion, const char* expected, const char* actual) {
+  std::string text = std::string("assertion failed: expected ") + expected + ", got " + actual;
+  if (assertion.message != nullptr) text += std::string(" (") + assertion.message + ')';
+  return text;
+}
+
+const char* severityWord(uint8_t severity) {
+  static const char* const words[] = {"note", "warning", "error"};
+  return words[severity <= RUNG_MESSAGE_ERROR ? severity : 0];
+}
+
+std::string messageLine(int64_t now_ns, uint8_t severity, const char* text) {
+  const int64_t ms = now_ns / 1'000'000;
+  char time[32];
+  snprintf(time, sizeof time, "%lld.%03d s: ", static_cast<long long>(ms / 1000), static_cast<int>(ms % 1000));
+  return std::string(time) + severityWord(severity) + ": " + text;
 }
 
 std::string describeCppBody(const rung_context& context, const ShownPaths& paths, const std::string& what) {

@@ -56,22 +56,10 @@ struct Run;
 Run* running = nullptr;
 void endHungRun(const rung_context* context, uint8_t reason);
 
-SessionOptions sessionOptions(const RunOptions& options) {
-  SessionOptions wanted;
-  wanted.interval_ns = options.interval_ns;
-  wanted.max_steps = options.max_steps;
-  wanted.others_go_on = options.others_go_on;
-  wanted.realtime = options.realtime;
-  wanted.files_root = options.files_root;
-  wanted.serial = options.serial;
-  wanted.drivers = options.drivers;
-  return wanted;
-}
-
 struct Run {
   Run(const rung_module& module, const RunOptions& chosen_options)
       : options(chosen_options),
-        session(module, sessionOptions(chosen_options), hooks()),
+        session(module, SessionOptions::of(chosen_options), hooks()),
         inputs(session.symbols()),
         trace(session.symbols()),
         plot(session.module()),
@@ -120,7 +108,7 @@ struct Run {
   std::string describe(const rung_context& context, const rung_fault& fault) const {
     return describeFault(context, fault, paths());
   }
-  std::string describe(const Ending& ending);
+  std::string describe(const Ending& ending) { return describeEnding(ending, session.context(), paths()); }
   void reportStopped();
   void reportChanges() const;
   std::string saveRetained() {
@@ -222,12 +210,9 @@ SessionHooks Run::hooks() {
 }
 
 void Run::printMessage(uint8_t severity, const char* text) {
-  static const char* const words[] = {"note", "warning", "error"};
-  const int64_t now_ns = session.nowNs(), ms = now_ns / 1'000'000;
-  const char* const word = words[severity <= RUNG_MESSAGE_ERROR ? severity : 0];
-  fprintf(options.err, "%lld.%03d s: %s: %s\n", static_cast<long long>(ms / 1000), static_cast<int>(ms % 1000), word,
-          text);
-  if (monitor) monitor->log().addMessage(now_ns, word, text);
+  const int64_t now_ns = session.nowNs();
+  fprintf(options.err, "%s\n", messageLine(now_ns, severity, text).c_str());
+  if (monitor) monitor->log().addMessage(now_ns, severityWord(severity), text);
 }
 
 // A violated ASSERT outside of tests is reported once per location; the program continues.
@@ -236,21 +221,9 @@ void Run::reportAssertion(const rung_assertion& assertion, const char* expected,
   const std::lock_guard<std::mutex> lock(reported_mutex);
   if (std::find(reported.begin(), reported.end(), location) != reported.end()) return;
   reported.push_back(location);
-  std::string message = location + ": assertion failed: expected " + expected + ", got " + actual;
-  if (assertion.message != nullptr) message += std::string(" (") + assertion.message + ')';
+  const std::string message = location + ": " + describeAssertion(assertion, expected, actual);
   fprintf(options.err, "%s\n", message.c_str());
   if (monitor) monitor->log().addMessage(session.nowNs(), "error", message);
-}
-
-std::string Run::describe(const Ending& ending) {
-  switch (ending.kind) {
-    case Ending::Complete: break;
-    case Ending::Faulted:
-      return describe(ending.context != nullptr ? *ending.context : session.context(), ending.fault);
-    case Ending::Watchdog: return "fault[watchdog]: task `" + ending.name + "` ran longer than its watchdog allows";
-    case Ending::Driver: return "fault[driver]: `" + ending.name + "` does not answer";
-  }
-  return "";
 }
 
 void Run::reportChanges() const {
@@ -272,7 +245,7 @@ bool Run::loadAll(std::string& error) {
   if (!trace.choose(options.watch, use, error)) return error.insert(0, "--watch: "), false;
   if (!options.stop_on.empty() && !stop_on.emplace(session.symbols()).parse(options.stop_on, error))
     return error.insert(0, "--stop-on: "), false;
-  calls.emplace(session.module(), session.memory());
+  calls.emplace(session.memory());
   if (!options.retain_path.empty()) retain.emplace(session.symbols(), session.memory(), options.retain_path);
   return true;
 }
@@ -416,7 +389,7 @@ void Run::followChange() {
   warnMissing(options.watch.empty() ? "--trace" : "--watch", trace.moveTo(session.symbols()));
   if (options.trace_forces) trace.markForced(session.forces());
   plot.moveTo(session.symbols());
-  calls.emplace(session.module(), session.memory());
+  calls.emplace(session.memory());
   std::string error;
   if (stop_on && !stop_on.emplace(session.symbols()).parse(options.stop_on, error)) {
     fprintf(options.err, "warning: --stop-on: %s\n", error.c_str());

@@ -9,6 +9,7 @@
 
 #include "clock.h"
 #include "crashes.h"
+#include "rung/host.h"
 #include "rung/retain.h"
 #include "sockets.h"
 #include "value_format.h"
@@ -23,6 +24,18 @@ int64_t systemNs() {
 }
 
 }  // namespace
+
+SessionOptions SessionOptions::of(const RunOptions& run) {
+  SessionOptions options;
+  options.interval_ns = run.interval_ns;
+  options.max_steps = run.max_steps;
+  options.others_go_on = run.others_go_on;
+  options.realtime = run.realtime;
+  options.files_root = run.files_root;
+  options.serial = run.serial;
+  options.drivers = run.drivers;
+  return options;
+}
 
 Session::Session(const rung_module& module, const SessionOptions& options, SessionHooks hooks)
     : options_(options),

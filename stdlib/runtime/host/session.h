@@ -33,6 +33,8 @@
 
 namespace rung::host {
 
+struct RunOptions;
+
 struct SessionOptions {
   int64_t interval_ns = 10'000'000;  // of cyclic tasks without one, and of a cycle when there is no cyclic task
   int64_t max_steps = 0;             // of an activation; 0: any
@@ -43,6 +45,8 @@ struct SessionOptions {
   std::string files_root = ".";
   SerialDevices serial;
   std::vector<std::string> drivers;  // PATH[=ARGUMENT]
+
+  static SessionOptions of(const RunOptions& run);
 };
 
 // What the program says while it runs, in the thread of the task. Each may be empty.

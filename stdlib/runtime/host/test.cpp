@@ -60,8 +60,7 @@ std::string describeViolated(const rung_assertion& assertion, const ShownPaths& 
                              const char* actual) {
   std::string message = shownPath(paths, assertion.file) + ':' + std::to_string(assertion.line);
   if (assertion.column != 0) message += ':' + std::to_string(assertion.column);
-  message += std::string(": assertion failed: expected ") + expected + ", got " + actual;
-  if (assertion.message != nullptr) message += std::string(" (") + assertion.message + ')';
+  message += ": " + describeAssertion(assertion, expected, actual);
   if (assertion.source != nullptr) message += '\n' + excerpt(assertion);
   return message;
 }
