@@ -168,7 +168,7 @@ std::vector<ShownVariable> Values::inside(const Variable& variable, uint64_t sta
       for (ShownVariable& inherited : inside(base, 0, UINT64_MAX)) all.push_back(std::move(inherited));
     } else {
       const std::string name = module().strings + field.name;
-      add(name, '.' + name);
+      if (!name.starts_with("__")) add(name, '.' + name);  // those of the compiler: the type of an object
     }
   }
   if (start == 0 && count == UINT64_MAX) return all;
